@@ -2,7 +2,7 @@
 //!
 //! A constructor of the graph sees two terms at a time; this pass sees a whole sum, through all additions whose only
 //! use is the sum. Constants and what is given at run time become one term, also with that of a smaller sum which has other
-//! uses: x + 1, and x + 1 + 2, is x + 1, and x + 3. A coefficient that is only roundoff vanishes.
+//! uses: x + 1 and x + 1 + 2 become x + 1 and x + 3. A coefficient that is only roundoff vanishes.
 //!
 //! In a long function each body is treated by itself, so that uniform bodies stay uniform and their code can be a loop:
 //! a sum does not extend into the steps of other bodies. What other sweeps have computed counts as ready, what the same

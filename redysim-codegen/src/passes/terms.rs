@@ -59,7 +59,7 @@ impl Parts {
         terms.into_iter().flat_map(taken_apart).collect()
     }
 
-    /// The terms of the sum at `root` and of its inner sums; none of what is not a sum.
+    /// The terms of the sum at `root` and of its inner sums. The list is empty if `root` is not a sum.
     fn terms_of_parts(&self, graph: &Graph, root: usize) -> Vec<Edge> {
         let mut terms = Vec::new();
         let mut open = vec![(root, false)];

@@ -59,8 +59,9 @@ mod tests {
         assert_eq!(fused(graph, sum, [late, early]), [true, false]);
     }
 
-    /// a b c + d e is ready after two operations, as its fused product is none of its own, and its product with another
-    /// factor after three. Beside a product of three operations that stands later, it is not the later one.
+    /// The sum a b c + d e is ready after two operations, since a fused product does not take an operation of its own. Its
+    /// product with another factor is ready after three, and so is a chain of three multiplications, which stands later and
+    /// is therefore the one that is fused.
     #[test]
     fn a_sum_is_ready_one_operation_after_the_factors_of_its_fused_product() {
         let beside = |length: u32| {
