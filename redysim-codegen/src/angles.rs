@@ -69,6 +69,14 @@ impl Angle {
         !matches!(self.terms.as_slice(), [Term { factor: 1.0 | -1.0, .. }] if self.constant == 0.0)
     }
 
+    /// The coordinate that the angle is; `None` for a multiple or a sum.
+    pub fn coordinate(&self) -> Option<u32> {
+        match self.terms[..] {
+            [Term { coordinate, factor: 1.0, .. }] if self.constant == 0.0 => Some(coordinate),
+            _ => None,
+        }
+    }
+
     /// The coordinates it depends on, in order.
     fn coordinates(&self) -> Vec<u32> {
         self.terms.iter().map(|term| term.coordinate).collect()

@@ -307,10 +307,9 @@ REDYSIM_INLINE void elbow_inverse_dynamics_inlined(const double q[ELBOW_NQ], con
 void elbow_inverse_dynamics(const double q[ELBOW_NQ], const double v[ELBOW_NV], const double a[ELBOW_NV],
     double tau[ELBOW_NV])
 {
-    const double angles[] = {q[0], q[1]};
     double some_sines[REDYSIM_ROOM(2)], some_cosines[REDYSIM_ROOM(2)];
     double sines[3], cosines[3];
-    redysim_sin_cos(2, angles, some_sines, some_cosines);
+    redysim_sin_cos(2, q, some_sines, some_cosines);
     sines[0] = some_sines[0];
     cosines[0] = some_cosines[0];
     sines[1] = some_sines[1];

@@ -208,16 +208,19 @@ impl Writer<'_> {
             };
             text += &statement(1, &format!("redysim_without_turns({all_near});"));
         }
-        let angles: Vec<String> = trig.angles.iter().map(|angle| self.angle(angle, trig)).collect();
         let room = if numbers == Numbers::Lanes { count.to_string() } else { format!("REDYSIM_ROOM({count})") };
-        text += &statement(1, &format!("const {number} angles[] = {{{}}};", angles.join(", ")));
+        let angles = consecutive_coordinates(&trig.angles).unwrap_or_else(|| {
+            let angles: Vec<String> = trig.angles.iter().map(|angle| self.angle(angle, trig)).collect();
+            text += &statement(1, &format!("const {number} angles[] = {{{}}};", angles.join(", ")));
+            "angles".into()
+        });
         if trig.is_complete() || !all {
             text += &statement(1, &format!("{number} {SINES}[{room}], {COSINES}[{room}];"));
-            return text + &statement(1, &format!("{of_angles}({count}, angles, {SINES}, {COSINES});"));
+            return text + &statement(1, &format!("{of_angles}({count}, {angles}, {SINES}, {COSINES});"));
         }
         text += &statement(1, &format!("{number} some_sines[{room}], some_cosines[{room}];"));
         text += &statement(1, &format!("{number} {SINES}[{0}], {COSINES}[{0}];", trig.places.len()));
-        text += &statement(1, &format!("{of_angles}({count}, angles, some_sines, some_cosines);"));
+        text += &statement(1, &format!("{of_angles}({count}, {angles}, some_sines, some_cosines);"));
         for (index, place) in trig.places.iter().enumerate() {
             if let Some(place) = place {
                 text += &statement(1, &format!("{SINES}[{index}] = some_sines[{place}];"));
@@ -326,6 +329,14 @@ impl Writer<'_> {
         let name = self.prefix.item(&format!("{}_inlined", function.name()));
         format!("{name}({robot}{}, {});", arguments.join(", "), signature.result.form().name)
     }
+}
+
+/// The coordinates as an array, from the first of `angles` on, if the angles are coordinates in a row. They need no copy, which
+/// compilers would put together number by number.
+fn consecutive_coordinates(angles: &[Angle]) -> Option<String> {
+    let first = angles.first()?.coordinate()?;
+    let are_consecutive = angles.iter().zip(first..).all(|(angle, place)| angle.coordinate() == Some(place));
+    are_consecutive.then(|| if first == 0 { "q".into() } else { format!("&q[{first}]") })
 }
 
 /// Whether a value does not depend on what an argument points to.
