@@ -281,7 +281,7 @@ pub(crate) fn indefinite_inertia(item: &str, smallest: f64) -> Message {
     message(
         format!("{item}: `inertia` has a negative principal moment, {} kg m²", rounded(smallest)),
         "not an inertia",
-        "give the inertia about the centre of mass; xy, yz, xz are the tensor's elements, such as xy = -∫ x y dm",
+        "give the inertia about the centre of mass; products of inertia are the tensor's elements, that of x and y -∫ x y dm",
     )
 }
 
