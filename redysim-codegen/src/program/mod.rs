@@ -300,7 +300,7 @@ impl Statement {
     }
 
     /// Calls `visit` with every variable that the statement reads, its own among them.
-    fn reads<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
+    pub(crate) fn reads<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
         match self {
             Statement::Destructure { .. } => {}
             Statement::Let { value, .. } => value.variables(visit),

@@ -1,9 +1,8 @@
 //! One function of a mechanism: of coordinates, and of precomputed joint trigonometry.
 
-use super::angles::{angle, without_turns};
 use super::body::{COS, MATRIX, SIN, body, local};
 use super::parametric::Form;
-use super::{length, results};
+use super::{length, results, trig};
 use crate::mechanism::{FunctionProgram, TrigProgram};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -27,7 +26,7 @@ impl Writer<'_> {
     pub fn joint_trig(&self) -> TokenStream {
         let head = joint_trig_head(self.interface, &self.angles(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
-        let sines_and_cosines = sines_and_cosines(self.trig);
+        let sines_and_cosines = trig::of_all_angles(self.trig);
         let body = with_target_features(&quote! {
             #sines_and_cosines
             #runtime::JointTrig::new(#q, &sin, &cos)
@@ -68,7 +67,7 @@ impl Writer<'_> {
         if program.trig.angles.is_empty() {
             return body;
         }
-        let (computed, sines, cosines) = trig_statement(&program.trig);
+        let (computed, sines, cosines) = trig::of_function(&program.trig, &program.program);
         let [sin, cos] = [SIN, COS].map(local);
         quote!(#computed let (#sin, #cos) = (#sines, #cosines); #body)
     }
@@ -77,7 +76,7 @@ impl Writer<'_> {
     /// cosines is a third function, inlined into both, so that sines and cosines do not go through memory.
     pub fn function(&self, program: &FunctionProgram) -> TokenStream {
         let (reads, body) = (Form::of(self.interface, self.runtime).reads, self.body(program));
-        let FunctionProgram { function, ref documentation, ref trig, .. } = *program;
+        let FunctionProgram { function, ref documentation, trig: ref angles_read, .. } = *program;
         let (Writer { interface, runtime, .. }, angles) = (*self, self.angles());
         let (head, head_with_trig) =
             (head(function, interface, runtime), head_with_trig(function, interface, &angles, runtime));
@@ -87,7 +86,7 @@ impl Writer<'_> {
             format!(" [`{0}`](Self::{0}) with sines and cosines that are already computed.", function.name());
         let (inlined, q, argument) = (inlined(function), local("q"), local(TRIG));
         let others: Vec<Ident> = others(function).collect();
-        let (computed, sin, cos) = trig_statement(trig);
+        let (computed, sin, cos) = trig::of_function(angles_read, &program.program);
         let caller = Form::of(interface, runtime).caller;
         let is_written = results::is_written(function.signature().result, &program.program.outputs);
         let written = is_written.then(|| local(MATRIX));
@@ -127,37 +126,6 @@ impl Writer<'_> {
             }
         }
     }
-}
-
-/// The statement that takes whole turns off coordinates.
-fn turns_taken_off(TrigProgram { without_turns: coordinates, .. }: &TrigProgram) -> Option<TokenStream> {
-    let (q, names) = (local("q"), coordinates.iter().map(|&coordinate| without_turns(coordinate)));
-    let places = coordinates.iter().map(|&coordinate| Literal::u32_unsuffixed(coordinate));
-    (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
-}
-
-/// The statements that compute the sines and cosines of the angles.
-fn sines_and_cosines(trig: &TrigProgram) -> TokenStream {
-    let (turns_taken_off, angles) = (turns_taken_off(trig), trig.angles.iter().map(angle));
-    quote!(#turns_taken_off let (sin, cos) = S::sin_cos_all([#(#angles),*]);)
-}
-
-/// The statement that computes the sines and cosines that one function needs, and the arrays of those of all angles,
-/// with zeros for the others.
-fn trig_statement(trig: &TrigProgram) -> (Option<TokenStream>, TokenStream, TokenStream) {
-    let computed = (!trig.angles.is_empty()).then(|| sines_and_cosines(trig));
-    if trig.is_complete() && !trig.angles.is_empty() {
-        return (computed, quote!(&sin), quote!(&cos));
-    }
-    let [sin, cos] = [SIN, COS].map(|array| {
-        let array = local(array);
-        let elements = trig.places.iter().map(|place| match place.map(Literal::usize_unsuffixed) {
-            Some(place) => quote!(#array[#place]),
-            None => quote!(S::zero()),
-        });
-        quote!(&[#(#elements),*])
-    });
-    (computed, sin, cos)
 }
 
 /// `body`, compiled for the target features that the scalar needs.

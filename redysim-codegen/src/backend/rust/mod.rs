@@ -8,6 +8,7 @@ mod results;
 #[cfg(feature = "source")]
 pub mod source;
 mod traits;
+mod trig;
 
 use crate::mechanism::MechanismProgram;
 pub use body::RESERVED;
