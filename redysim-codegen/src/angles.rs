@@ -70,6 +70,7 @@ impl Angle {
     }
 
     /// The coordinate that the angle is; `None` for a multiple or a sum.
+    #[cfg(feature = "source")]
     pub fn coordinate(&self) -> Option<u32> {
         match self.terms[..] {
             [Term { coordinate, factor: 1.0, .. }] if self.constant == 0.0 => Some(coordinate),
