@@ -99,9 +99,9 @@ impl TrigProgram {
         }
     }
 
-    /// Whether it has every angle of the mechanism.
+    /// Whether its angles are all those of the mechanism, in their order.
     pub fn is_complete(&self) -> bool {
-        self.angles.len() == self.places.len()
+        self.places.iter().enumerate().all(|(angle, place)| *place == Some(angle))
     }
 }
 

@@ -26,7 +26,7 @@ impl Writer<'_> {
     pub fn joint_trig(&self) -> TokenStream {
         let head = joint_trig_head(self.interface, &self.angles(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
-        let sines_and_cosines = trig::of_all_angles(self.trig);
+        let sines_and_cosines = trig::sines_and_cosines(self.trig);
         let body = with_target_features(&quote! {
             #sines_and_cosines
             #runtime::JointTrig::new(#q, &sin, &cos)

@@ -11,38 +11,29 @@ use std::collections::HashMap;
 /// The numbers of a vector of 256 bits, the widest in code for one state.
 const VECTOR: usize = 4;
 
-/// The statements that compute the sines and cosines of all angles of the mechanism, in their order.
-pub fn of_all_angles(trig: &TrigProgram) -> TokenStream {
-    let in_order: Vec<usize> = (0..trig.angles.len()).collect();
-    statements(trig, &in_order)
+/// The statements that compute the sines and cosines of the angles.
+pub fn sines_and_cosines(trig: &TrigProgram) -> TokenStream {
+    let (turns_taken_off, angles) = (turns_taken_off(trig), trig.angles.iter().map(angle));
+    quote!(#turns_taken_off let (sin, cos) = S::sin_cos_all([#(#angles),*]);)
 }
 
 /// The statements that compute the sines and cosines that `program` reads, and expressions for the arrays of those of all angles,
 /// with zeros for the others.
 pub fn of_function(trig: &TrigProgram, program: &Program) -> (Option<TokenStream>, TokenStream, TokenStream) {
-    let order = order_of_vectors(trig, program);
-    let computed = (!trig.angles.is_empty()).then(|| statements(trig, &order));
-    if trig.is_complete() && !trig.angles.is_empty() && order.is_sorted() {
+    let trig = in_order_of_reading(trig, program);
+    let computed = (!trig.angles.is_empty()).then(|| sines_and_cosines(&trig));
+    if trig.is_complete() && !trig.angles.is_empty() {
         return (computed, quote!(&sin), quote!(&cos));
     }
     let [sin, cos] = [SIN, COS].map(|array| {
         let array = local(array);
-        let elements = trig.places.iter().map(|place| {
-            match place.and_then(|place| order.iter().position(|&other| other == place)).map(Literal::usize_unsuffixed)
-            {
-                Some(place) => quote!(#array[#place]),
-                None => quote!(S::zero()),
-            }
+        let elements = trig.places.iter().map(|place| match place.map(Literal::usize_unsuffixed) {
+            Some(place) => quote!(#array[#place]),
+            None => quote!(S::zero()),
         });
         quote!(&[#(#elements),*])
     });
     (computed, sin, cos)
-}
-
-/// The statements that compute the sines and cosines of the angles, in this order of their indices.
-fn statements(trig: &TrigProgram, order: &[usize]) -> TokenStream {
-    let (turns_taken_off, angles) = (turns_taken_off(trig), order.iter().map(|&index| angle(&trig.angles[index])));
-    quote!(#turns_taken_off let (sin, cos) = S::sin_cos_all([#(#angles),*]);)
 }
 
 /// The statement that takes whole turns off coordinates.
@@ -52,23 +43,29 @@ fn turns_taken_off(TrigProgram { without_turns: coordinates, .. }: &TrigProgram)
     (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
 }
 
-/// The indices of the angles in the order in which their sines and cosines are computed, a vector of them after the other: those
-/// that `program` reads first come first, so that it begins while the others are computed, and branches side by side read a
-/// vector as it was computed. In a vector the angles keep their order, since coordinates in a row are loaded at once.
-fn order_of_vectors(trig: &TrigProgram, program: &Program) -> Vec<usize> {
+/// The same angles in the order in which their sines and cosines are best computed, a vector of them after the other: those that
+/// `program` reads first come first, so that it begins while the others are computed, and branches side by side read a vector as
+/// it was computed. In a vector the angles keep their order, since coordinates in a row are loaded at once.
+fn in_order_of_reading(trig: &TrigProgram, program: &Program) -> TrigProgram {
     let mut order: Vec<usize> = Vec::with_capacity(trig.angles.len());
-    for angle in angles_as_read(&program.statements) {
-        order.extend(trig.places[angle].filter(|index| !order.contains(index)));
+    // Loops read angles by the number of their group, and outputs last.
+    let others = trig.places.iter().copied();
+    for index in angles_as_read(&program.statements).map(|angle| trig.places[angle]).chain(others).flatten() {
+        if !order.contains(&index) {
+            order.push(index);
+        }
     }
-    // Loops read angles by the number of their group, that is, as they stand.
-    let others: Vec<usize> = (0..trig.angles.len()).filter(|index| !order.contains(index)).collect();
-    order.extend(others);
     order.chunks_mut(VECTOR).for_each(<[usize]>::sort_unstable);
-    order
+    let place = |index: usize| order.iter().position(|&other| other == index);
+    TrigProgram {
+        without_turns: trig.without_turns.clone(),
+        angles: order.iter().map(|&index| trig.angles[index].clone()).collect(),
+        places: trig.places.iter().map(|index| index.and_then(place)).collect(),
+    }
 }
 
 /// The angles of the mechanism whose sines and cosines the statements read, in the order in which they do.
-fn angles_as_read(statements: &[Statement]) -> Vec<usize> {
+fn angles_as_read(statements: &[Statement]) -> impl Iterator<Item = usize> {
     let mut names: HashMap<&str, usize> = HashMap::new();
     let mut read = Vec::new();
     for statement in statements {
@@ -77,7 +74,7 @@ fn angles_as_read(statements: &[Statement]) -> Vec<usize> {
         }
         statement.reads(&mut |name| read.extend(names.get(name)));
     }
-    read
+    read.into_iter()
 }
 
 #[cfg(test)]
@@ -137,23 +134,19 @@ mod tests {
     #[test]
     fn four_branches_read_a_vector_as_it_is_computed() {
         // Two joints of each of four legs, the outer ones first.
-        let mut program = reading(&[], 8);
-        let names: Vec<String> = (0..8).map(|angle| format!("sin_{angle}")).collect();
-        program.statements = vec![
-            Statement::Destructure { array: Trig::Sines, names: names.iter().cloned().map(Some).collect() },
-            Statement::SideBySide(SideBySide {
-                name: "legs".into(),
-                branches: 4,
-                inputs: [[1, 3, 5, 7], [0, 2, 4, 6]]
-                    .map(|legs| Input {
-                        name: "sin".into(),
-                        branches: legs.map(|angle| variable(&names[angle])).into(),
-                    })
-                    .into(),
-                body: Vec::new(),
-                results: Vec::new(),
-            }),
-        ];
+        let names: [String; 8] = std::array::from_fn(|angle| format!("sin_{angle}"));
+        let input =
+            |legs: [usize; 4]| Input { name: "sin".into(), branches: legs.map(|angle| variable(&names[angle])).into() };
+        let side_by_side = SideBySide {
+            name: "legs".into(),
+            branches: 4,
+            inputs: [[1, 3, 5, 7], [0, 2, 4, 6]].map(input).into(),
+            body: Vec::new(),
+            results: Vec::new(),
+        };
+        let destructure = Statement::Destructure { array: Trig::Sines, names: names.clone().map(Some).into() };
+        let statements = vec![destructure, Statement::SideBySide(side_by_side)];
+        let program = Program { statements, outputs: Vec::new() };
         let [computed, _] = code(&coordinates((0..8).map(Some).collect()), &program);
         assert_eq!(computed, "let(sin,cos)=S::sin_cos_all([q[1],q[3],q[5],q[7],q[0],q[2],q[4],q[6]]);");
     }
