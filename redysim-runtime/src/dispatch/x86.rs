@@ -19,9 +19,10 @@
 use crate::scalar::Scalar;
 use crate::trigonometry::angle::{Angle, Number};
 use crate::trigonometry::in_turn::in_turn;
+use crate::trigonometry::quick::Quick;
 use crate::trigonometry::reduction::Reduced;
 use crate::trigonometry::several::several;
-use crate::trigonometry::{double, single, turns};
+use crate::trigonometry::{double, quick, single, turns};
 use core::arch::x86_64::*;
 use core::fmt;
 use core::mem::MaybeUninit;
@@ -113,7 +114,7 @@ macro_rules! numbers {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                $kernel::sin_cos(self)
+                quick::sin_cos(self)
             }
 
             #[inline(always)]
@@ -145,11 +146,21 @@ macro_rules! numbers {
                 let Reduced { rounded, rest, tail } = Number::reduced(self.0);
                 Reduced { rounded: Self(rounded), rest: Self(rest), tail: Self(tail) }
             }
+
+            #[inline(always)]
+            fn hard(self) -> (Self, Self) {
+                $kernel::hard(self)
+            }
         }
 
         impl Angle for $name {
             type Number = Self;
             const FUSED: bool = FUSED;
+
+            #[inline(always)]
+            fn quick(self) -> Quick<Self> {
+                $kernel::quick(self)
+            }
 
             #[inline(always)]
             fn all_at_most(self, limit: Self) -> bool {
@@ -307,7 +318,7 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                $kernel::sin_cos(self)
+                quick::sin_cos(self)
             }
 
             #[inline(always)]
@@ -340,6 +351,11 @@ macro_rules! lanes {
         impl Angle for $name {
             type Number = $number;
             const FUSED: bool = FUSED;
+
+            #[inline(always)]
+            fn quick(self) -> Quick<Self> {
+                $kernel::quick(self)
+            }
 
             #[inline(always)]
             fn all_at_most(self, limit: Self) -> bool {

@@ -4,14 +4,21 @@ use super::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 use crate::registers::Register;
 use crate::scalar::FUSED;
 use crate::trigonometry::angle::Angle;
+use crate::trigonometry::quick::Quick;
+use crate::trigonometry::{double, single};
 use bytemuck::cast;
 use wide::{u32x4, u32x8, u32x16, u64x2, u64x4, u64x8};
 
 macro_rules! angles {
-    ($lanes:ident of $float:ident, $bits:ident << $second_bit_to_sign:literal) => {
+    ($lanes:ident of $float:ident, $kernel:ident, $bits:ident << $second_bit_to_sign:literal) => {
         impl Angle for $lanes {
             type Number = $float;
             const FUSED: bool = FUSED;
+
+            #[inline(always)]
+            fn quick(self) -> Quick<Self> {
+                $kernel::quick(self)
+            }
 
             #[inline(always)]
             fn all_at_most(self, limit: Self) -> bool {
@@ -30,13 +37,16 @@ macro_rules! angles {
 
             #[inline(always)]
             fn turned(rounded: Self, sin: Self, cos: Self) -> (Self, Self) {
-                let (one, two) = ($bits::splat(1), $bits::splat(2));
+                let (one, three) = ($bits::splat(1), $bits::splat(3));
                 let [turns, sin, cos]: [$bits; 3] = [cast(rounded.0), cast(sin.0), cast(cos.0)];
-                let odd = $bits::splat(0) - (turns & one);
-                let differing = (sin ^ cos) & odd;
-                let sin_sign = (turns & two) << $second_bit_to_sign;
-                let cos_sign = ((turns + one) & two) << $second_bit_to_sign;
-                (Self(cast(sin ^ differing ^ sin_sign)), Self(cast(cos ^ differing ^ cos_sign)))
+                let odd = Self(cast($bits::splat(0) - (turns & one))).0;
+                // The second bit of the turns goes to the sign. The first, which goes beside it, is taken away after odd turns,
+                // and the cosine then has the other sign.
+                let turns = turns << $second_bit_to_sign;
+                let (sin, cos) = (sin ^ turns, cos ^ turns);
+                let odd_sin = cos ^ (one << $second_bit_to_sign);
+                let odd_cos = sin ^ (three << $second_bit_to_sign);
+                (Self(odd.select(cast(odd_sin), cast(sin))), Self(odd.select(cast(odd_cos), cast(cos))))
             }
 
             #[inline(always)]
@@ -80,9 +90,9 @@ impl F64x2 {
     }
 }
 
-angles!(F64x2 of f64, u64x2 << 62_u64);
-angles!(F64x4 of f64, u64x4 << 62_u64);
-angles!(F64x8 of f64, u64x8 << 62_u64);
-angles!(F32x4 of f32, u32x4 << 30_u32);
-angles!(F32x8 of f32, u32x8 << 30_u32);
-angles!(F32x16 of f32, u32x16 << 30_u32);
+angles!(F64x2 of f64, double, u64x2 << 62_u64);
+angles!(F64x4 of f64, double, u64x4 << 62_u64);
+angles!(F64x8 of f64, double, u64x8 << 62_u64);
+angles!(F32x4 of f32, single, u32x4 << 30_u32);
+angles!(F32x8 of f32, single, u32x8 << 30_u32);
+angles!(F32x16 of f32, single, u32x16 << 30_u32);

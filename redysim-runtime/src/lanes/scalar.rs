@@ -4,10 +4,10 @@ use super::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 use crate::registers::Register;
 use crate::scalar::{FUSED, Scalar};
 use crate::trigonometry::in_turn::in_turn;
-use crate::trigonometry::{double, single, turns};
+use crate::trigonometry::{quick, turns};
 
 macro_rules! scalar {
-    ($lanes:ident($wide:ident) of $float:ident, $sin_cos:path) => {
+    ($lanes:ident($wide:ident) of $float:ident) => {
         impl Scalar for $lanes {
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -16,7 +16,7 @@ macro_rules! scalar {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                $sin_cos(self)
+                quick::sin_cos(self)
             }
 
             #[inline(always)]
@@ -50,9 +50,9 @@ macro_rules! scalar {
     };
 }
 
-scalar!(F64x2(f64x2) of f64, double::sin_cos);
-scalar!(F64x4(f64x4) of f64, double::sin_cos);
-scalar!(F64x8(f64x8) of f64, double::sin_cos);
-scalar!(F32x4(f32x4) of f32, single::sin_cos);
-scalar!(F32x8(f32x8) of f32, single::sin_cos);
-scalar!(F32x16(f32x16) of f32, single::sin_cos);
+scalar!(F64x2(f64x2) of f64);
+scalar!(F64x4(f64x4) of f64);
+scalar!(F64x8(f64x8) of f64);
+scalar!(F32x4(f32x4) of f32);
+scalar!(F32x8(f32x8) of f32);
+scalar!(F32x16(f32x16) of f32);

@@ -1,7 +1,8 @@
 //! What the kernels ask of their angles beyond arithmetic.
 
+use super::quick::Quick;
 use super::reduction::{self, Reduced};
-use super::single_reduction;
+use super::{double, single, single_reduction};
 use crate::scalar::{FUSED, Scalar};
 
 /// One angle, or several side by side.
@@ -11,10 +12,13 @@ pub trait Angle: Scalar {
     /// Whether `mul_add` rounds once.
     const FUSED: bool;
 
+    /// Sine and cosine by the quick reduction.
+    fn quick(self) -> Quick<Self>;
+
     /// Whether every lane is at most that of `limit`; NaN is not.
     fn all_at_most(self, limit: Self) -> bool;
 
-    /// The lesser of the two numbers in every lane; either of them where one is NaN.
+    /// The lesser of the two numbers in every lane; `other` or NaN where `self` is NaN.
     fn lesser(self, other: Self) -> Self;
 
     /// Sine and cosine, given those of the rest, after the quarter turns in the last two bits of `rounded`: every one
@@ -32,10 +36,13 @@ pub trait Number: Angle<Number = Self> {
 
     /// The reduction of any angle, however hard; NaN where it is not finite.
     fn reduced(self) -> Reduced<Self>;
+
+    /// Sine and cosine by the quick reduction where it is good enough, and by [`reduced`](Number::reduced) elsewhere.
+    fn hard(self) -> (Self, Self);
 }
 
 macro_rules! one_angle {
-    ($float:ident, $second_bit_to_sign:literal, $reduced:path, $half_pi:expr) => {
+    ($float:ident, $kernel:ident, $second_bit_to_sign:literal, $reduced:path, $half_pi:expr) => {
         impl Number for $float {
             const HALF_PI: [Self; 2] = $half_pi;
 
@@ -43,11 +50,21 @@ macro_rules! one_angle {
             fn reduced(self) -> Reduced<Self> {
                 $reduced(self)
             }
+
+            #[inline(always)]
+            fn hard(self) -> (Self, Self) {
+                $kernel::hard(self)
+            }
         }
 
         impl Angle for $float {
             type Number = Self;
             const FUSED: bool = FUSED;
+
+            #[inline(always)]
+            fn quick(self) -> Quick<Self> {
+                $kernel::quick(self)
+            }
 
             #[inline(always)]
             fn all_at_most(self, limit: Self) -> bool {
@@ -78,5 +95,5 @@ macro_rules! one_angle {
     };
 }
 
-one_angle!(f64, 62, reduction::reduced, [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17]);
-one_angle!(f32, 30, single_reduction::by_digits, [core::f32::consts::FRAC_PI_2, -4.371_139e-8]);
+one_angle!(f64, double, 62, reduction::reduced, [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17]);
+one_angle!(f32, single, 30, single_reduction::by_digits, [core::f32::consts::FRAC_PI_2, -4.371_139e-8]);

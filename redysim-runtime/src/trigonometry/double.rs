@@ -4,76 +4,78 @@
 //! where that is not enough (many quarter turns, or an angle beside a multiple of π/2), with more digits (`reduction`).
 //! Then two polynomials in r², of least relative error (found by Remez exchange: 2⁻⁵⁷ for the sine, 2⁻⁵⁹ for the
 //! cosine), are evaluated.
+//!
+//! Where multiply-adds round once, the parts of π/2 are longer, and fewer operations give an error below 1 unit in the last
+//! place.
 
 use super::angle::{Angle, Number};
+use super::quick::{Margin, Quick};
 use super::reduction::{ROUNDER, Reduced};
+use crate::scalar::Scalar;
 #[cfg(feature = "lanes")]
-use crate::{lanes::F64x2, registers, scalar::Scalar};
+use crate::{lanes::F64x2, registers};
 
-/// A rest smaller than this for each quarter turn has lost too many digits to cancellation, 2⁻³³.
-const TOO_SMALL: f64 = 1.0 / (1_u64 << 33) as f64;
-/// Of 2¹⁷ quarter turns, the square of that rest.
-const MANY_TURNS: f64 = 1.0 / (1_u64 << 32) as f64;
-/// π/2 in a part of 36 bits, of which multiples up to 2¹⁷ are exact, and one of 53.
-const HALF_PI: [f64; 2] = [1.5707963267923333, 2.563344151594519e-12];
-
-/// Sine and cosine of `x` radians, in every lane.
-#[inline(always)]
-pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
-    let (angle, good) = reduced(x);
-    // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.
-    if good { evaluated(angle) } else { x.one_by_one(hard) }
+/// π/2 in two parts.
+///
+/// If multiply and add round once, a multiple of the first is subtracted exactly though it has all its bits: the difference
+/// is below 1 and has none after the 53rd. If they round twice, the first has 36 bits, of which multiples up to 2¹⁷ are
+/// exact.
+const fn half_pi(fused: bool) -> [f64; 2] {
+    if fused { [1.5707963267948966, 6.123233995736766e-17] } else { [1.5707963267923333, 2.563344151594519e-12] }
 }
 
-/// [`sin_cos`] of one angle.
+/// A rest smaller than this for each quarter turn has lost too many digits to cancellation, 2⁻³³, if multiply and add round
+/// twice.
+const TOO_SMALL: f64 = 1.0 / (1_u64 << 33) as f64;
+/// The square of what is too small after so many quarter turns that others are to reduce the angle: 2¹⁷, or some 2³⁷ if
+/// multiply and add round once.
+const MANY_TURNS: f64 = 1.0 / (1_u64 << 32) as f64;
+
+/// Sine and cosine of `x` radians in every lane, good where the quick reduction is.
+#[inline(always)]
+pub fn quick<A: Angle>(x: A) -> Quick<A> {
+    let (angle, margin) = reduced(x);
+    let (sin, cos) = evaluated(angle);
+    Quick { sin, cos, margin }
+}
+
+/// Sine and cosine of one angle.
 #[inline(always)]
 pub fn of_one(x: f64) -> (f64, f64) {
     #[cfg(feature = "lanes")]
     if registers::VECTORS {
-        return side_by_side(x);
+        let (angle, margin) = reduced(x);
+        let (sin, cos) = side_by_side(angle);
+        return Quick { sin, cos, margin }.or_hard(x);
     }
-    sin_cos(x)
-}
-
-/// Sine and cosine of one angle, side by side in two lanes: the bits of [`sin_cos`] in fewer instructions.
-#[inline(always)]
-#[cfg(feature = "lanes")]
-fn side_by_side(x: f64) -> (f64, f64) {
-    let (Reduced { rounded, rest: r, tail }, good) = reduced(x);
-    if !good {
-        return x.one_by_one(hard);
-    }
-    let z = r * r;
-    let (near_one, correction) = second_order_cosine(z, r, tail);
-    let [squares, powers] = [F64x2::from([z, z]), F64x2::from([r, z])];
-    let polynomials = polynomial(|term| F64x2::from([SINE[term], COSINE[term]]), squares);
-    let corrections = F64x2::from([tail * near_one, correction]);
-    let found = F64x2::from([r, near_one]) + (powers * squares).mul_add(polynomials, corrections);
-    found.turned_as_sine_and_cosine(rounded)
+    quick(x).or_hard(x)
 }
 
 /// Sine and cosine of one angle, of which the quick reduction may not be good enough.
 #[inline(always)]
-fn hard<T: Number>(x: T) -> (T, T) {
-    let (quick, good) = reduced(x);
-    evaluated(if good { quick } else { x.reduced() })
+pub fn hard<T: Number>(x: T) -> (T, T) {
+    let (quick, margin) = reduced(x);
+    evaluated(if margin.is_enough() { quick } else { x.reduced() })
 }
 
-/// The reduction that is good for nearly all angles, and whether it is good for all of these.
+/// The reduction that is good for nearly all angles, and by how much it is good enough.
 #[inline(always)]
-fn reduced<A: Angle>(x: A) -> (Reduced<A>, bool) {
+fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
     let k = A::from_f64;
+    let [high, low] = half_pi(A::FUSED).map(k);
     let rounded = x.mul_add(k(core::f64::consts::FRAC_2_PI), k(ROUNDER));
     let minus_n = k(ROUNDER) - rounded;
     // The first difference is exact; the second leaves its roundoff in the tail (Dekker: `first` is the larger, or the
     // rest is too small).
-    let first = minus_n.mul_add(k(HALF_PI[0]), x);
-    let rest = minus_n.mul_add(k(HALF_PI[1]), first);
-    let tail = minus_n.mul_add(k(HALF_PI[1]), first - rest);
-    // By squares, of which the kernel needs that of the rest anyway: one comparison for both, and no signs.
-    let too_small = minus_n * k(TOO_SMALL);
-    let good = (too_small * too_small).all_at_most((rest * rest).lesser(k(MANY_TURNS)));
-    (Reduced { rounded, rest, tail }, good)
+    let first = minus_n.mul_add(high, x);
+    let rest = minus_n.mul_add(low, first);
+    let subtracted = first - rest;
+    let tail = minus_n.mul_add(low, subtracted);
+    // By squares, of which the kernel needs that of the rest anyway: one difference for both, and no signs. If multiply and
+    // add round once, `subtracted` is exact where it is not larger than the rest, and the low part is good for 2⁻⁵⁵ of it.
+    let too_small = if A::FUSED { subtracted } else { minus_n * k(TOO_SMALL) };
+    let margin = (-too_small).mul_add(too_small, (rest * rest).lesser(k(MANY_TURNS)));
+    (Reduced { rounded, rest, tail }, margin)
 }
 
 /// (sin r − r) / r³ as a polynomial in r².
@@ -100,26 +102,93 @@ const COSINE: [f64; 6] = [
 #[inline(always)]
 fn evaluated<A: Angle>(Reduced { rounded, rest: r, tail }: Reduced<A>) -> (A, A) {
     let z = r * r;
-    let (near_one, correction) = second_order_cosine(z, r, tail);
-    let sin = r + (r * z).mul_add(polynomial(|term| A::from_f64(SINE[term]), z), tail * near_one);
-    let cos = near_one + (z * z).mul_add(polynomial(|term| A::from_f64(COSINE[term]), z), correction);
+    let squares = z * z;
+    let [sine, cosine] = [SINE, COSINE].map(|terms| Polynomial::of(|term| A::from_f64(terms[term]), z, squares));
+    let (sin, cos) = if A::FUSED {
+        // r² is not rounded before it is subtracted from 1, so that no correction is needed.
+        let sin = r + (r * z).mul_add(sine.value(squares), tail);
+        let beyond_second_order = (squares * squares).mul_add(cosine.high, squares.mul_add(cosine.low, -r * tail));
+        (sin, A::one() + r.mul_add(r * A::from_f64(-0.5), beyond_second_order))
+    } else {
+        let (near_one, correction) = second_order_cosine(z, r, tail);
+        let sin = r + (r * z).mul_add(sine.value(squares), tail * near_one);
+        (sin, near_one + squares.mul_add(cosine.value(squares), correction))
+    };
     A::turned(rounded, sin, cos)
+}
+
+/// [`evaluated`] of one angle, sine and cosine side by side in two lanes: the same bits in fewer instructions.
+#[inline(always)]
+#[cfg(feature = "lanes")]
+fn side_by_side(Reduced { rounded, rest: r, tail }: Reduced<f64>) -> (f64, f64) {
+    let z = r * r;
+    let pair = |sine: f64, cosine: f64| F64x2::from([sine, cosine]);
+    let squares = pair(z * z, z * z);
+    let polynomials = Polynomial::of(|term| pair(SINE[term], COSINE[term]), pair(z, z), squares);
+    let found = if f64::FUSED {
+        let low = pair(1.0, z * z).mul_add(polynomials.low, pair(0.0, -r * tail));
+        let [sine, beyond_second_order] = (squares * pair(1.0, z * z)).mul_add(polynomials.high, low).into();
+        pair(r, 1.0) + pair(r * z, r).mul_add(pair(sine, r * -0.5), pair(tail, beyond_second_order))
+    } else {
+        let (near_one, correction) = second_order_cosine(z, r, tail);
+        let powers = pair(r, z) * pair(z, z);
+        pair(r, near_one) + powers.mul_add(polynomials.value(squares), pair(tail * near_one, correction))
+    };
+    found.turned_as_sine_and_cosine(rounded)
 }
 
 /// 1 − z / 2, where z = r², and the correction for its roundoff and for the tail.
 #[inline(always)]
 fn second_order_cosine<A: Angle>(z: A, r: A, tail: A) -> (A, A) {
-    // Halves are exact, fused or not.
+    // Halves are exact.
     let (one, minus_half) = (A::one(), A::from_f64(-0.5));
     let near_one = z.mul_add(minus_half, one);
     (near_one, (-r).mul_add(tail, z.mul_add(minus_half, one - near_one)))
 }
 
-/// The polynomial of six terms with these coefficients. Neighbouring terms are paired, so that fewer operations wait for each
-/// other.
-#[inline(always)]
-fn polynomial<A: Angle>(coefficient: impl Fn(usize) -> A, z: A) -> A {
-    let pair = |low: usize| z.mul_add(coefficient(low + 1), coefficient(low));
-    let squared = z * z;
-    squared.mul_add(squared.mul_add(pair(4), pair(2)), pair(0))
+/// A polynomial of six terms in z, in two parts: low + z² · high. Neighbouring terms are paired, so that fewer operations
+/// wait for each other.
+struct Polynomial<A> {
+    low: A,
+    high: A,
+}
+
+impl<A: Scalar> Polynomial<A> {
+    #[inline(always)]
+    fn of(coefficient: impl Fn(usize) -> A, z: A, squares: A) -> Self {
+        let pair = |low: usize| z.mul_add(coefficient(low + 1), coefficient(low));
+        Polynomial { low: pair(0), high: squares.mul_add(pair(4), pair(2)) }
+    }
+
+    #[inline(always)]
+    fn value(&self, squares: A) -> A {
+        squares.mul_add(self.high, self.low)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A posture of right angles takes no longer than others.
+    #[test]
+    #[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
+    fn numbers_nearest_to_multiples_of_a_right_angle_need_no_more_digits() {
+        for turns in -8..=8 {
+            let angle = f64::from(turns) * core::f64::consts::FRAC_PI_2;
+            let (_, margin) = reduced(angle);
+            assert!(margin.is_enough() || !f64::FUSED, "{turns} quarter turns: the margin is {margin:e}");
+        }
+    }
+
+    #[test]
+    fn angles_of_many_turns_need_more_digits() {
+        let many_turns = if f64::FUSED { 1e12 } else { 1e6 };
+        for angle in
+            [many_turns, -1e16, 1e20, 6381956970095103.0 * libm::exp2(797.0), f64::MAX, f64::INFINITY, f64::NAN]
+        {
+            let (_, margin) = reduced(angle);
+            assert!(!margin.is_enough(), "{angle:e}");
+        }
+    }
 }

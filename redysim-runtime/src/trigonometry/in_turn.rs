@@ -1,30 +1,56 @@
 //! Angles one after the other, each of which is lanes.
 
-use crate::scalar::Scalar;
+use super::angle::{Angle, Number};
+use super::quick::{Margin, Quick};
 
-/// Sines and cosines of all `angles`, as straight code for up to 28 of them.
+/// Sines and cosines of all `angles`, as straight code for up to 28 of them, without a branch but for hard ones, after which
+/// all are computed anew.
 ///
 /// In a loop, sines and cosines go through memory. Copies of lanes there may be made in pieces (LLVM moves 512 bits by two
 /// times 256 on processors of Intel), and to read as a whole what was written in pieces stalls the processor. Straight code
 /// for more angles would take more than half of an instruction cache of 32 KiB.
 #[inline(always)]
-pub fn in_turn<S: Scalar, const N: usize>(angles: [S; N]) -> ([S; N], [S; N]) {
-    let zeros = [S::from_f64(0.0); N];
-    let (mut sines, mut cosines) = (zeros, zeros);
+pub fn in_turn<A: Angle, const N: usize>(angles: [A; N]) -> ([A; N], [A; N]) {
+    let zero = A::from_f64(0.0);
+    let (mut sines, mut cosines) = ([zero; N], [zero; N]);
     if N > 28 {
         for ((sin, cos), angle) in sines.iter_mut().zip(&mut cosines).zip(&angles) {
             (*sin, *cos) = angle.sin_cos();
         }
         return (sines, cosines);
     }
+    let mut least = zero;
     macro_rules! straight {
         ($($index:literal)*) => {$(
             if $index < N {
-                (sines[$index], cosines[$index]) = angles[$index].sin_cos();
+                let Quick { sin, cos, margin } = angles[$index].quick();
+                (sines[$index], cosines[$index]) = (sin, cos);
+                // In this order a margin that is NaN, as that of an infinite angle, hides no other.
+                least = margin.lesser(least);
             }
         )*};
     }
     straight!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27);
+    if least.is_enough() {
+        (sines, cosines)
+    } else {
+        of_negatives(angles.map(
+            #[inline(always)]
+            |angle| -angle,
+        ))
+    }
+}
+
+/// Sines and cosines of the negatives of `angles`, of which some are hard. Negatives are other lanes, which are put into memory
+/// for this call; the angles themselves stay in registers.
+#[cold]
+#[inline(never)]
+fn of_negatives<A: Angle, const N: usize>(angles: [A; N]) -> ([A; N], [A; N]) {
+    let zero = A::from_f64(0.0);
+    let (mut sines, mut cosines) = ([zero; N], [zero; N]);
+    for ((sin, cos), angle) in sines.iter_mut().zip(&mut cosines).zip(&angles) {
+        (*sin, *cos) = (-*angle).one_by_one(Number::hard);
+    }
     (sines, cosines)
 }
 
@@ -32,6 +58,7 @@ pub fn in_turn<S: Scalar, const N: usize>(angles: [S; N]) -> ([S; N], [S; N]) {
 mod tests {
     use super::*;
     use crate::lanes::F64x4;
+    use crate::scalar::Scalar;
 
     fn are_those_of_each_angle<const N: usize>() {
         let angles: [F64x4; N] =
@@ -41,6 +68,24 @@ mod tests {
             let (sin, cos) = angle.sin_cos();
             let bits = |lanes: F64x4| <[f64; 4]>::from(lanes).map(f64::to_bits);
             assert_eq!([sines[index], cosines[index]].map(bits), [sin, cos].map(bits), "angle {index} of {N}");
+        }
+    }
+
+    #[test]
+    fn a_hard_angle_is_reduced_with_more_digits_whatever_stands_beside_it() {
+        for order in [[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
+            for beside in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let angles = order.map(|index| F64x4::from([[1e300, beside, 0.5][index]; 4]));
+                let (sines, cosines) = in_turn(angles);
+                for (place, angle) in angles.into_iter().enumerate() {
+                    let [angle, ..]: [f64; 4] = angle.into();
+                    let [[sin, ..], [cos, ..]] = [sines, cosines].map(|found| <[f64; 4]>::from(found[place]));
+                    let (expected_sin, expected_cos) = (libm::sin(angle), libm::cos(angle));
+                    assert!((sin - expected_sin).abs() < 1e-15 || !angle.is_finite(), "sin({angle:e}) is {sin}");
+                    assert!((cos - expected_cos).abs() < 1e-15 || !angle.is_finite(), "cos({angle:e}) is {cos}");
+                    assert_eq!([sin, cos].map(f64::is_nan), [!angle.is_finite(); 2], "at {angle:e}");
+                }
+            }
         }
     }
 

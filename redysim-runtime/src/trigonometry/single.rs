@@ -7,6 +7,7 @@
 //! coefficients that are `f32`, `studies/sin_cos/minimax.py`: 2⁻²⁷·⁸ for the sine, 2⁻³¹·⁹ for the cosine), are evaluated.
 
 use super::angle::{Angle, Number};
+use super::quick::{Margin, Quick};
 use super::reduction::Reduced;
 
 /// The number of radians up to which the parts of π/2 are good enough: 2¹⁷ quarter turns, or 2⁸ if multiply and add
@@ -32,11 +33,11 @@ const ROUNDER: f32 = 12_582_912.0;
 pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
     let mut found = ([0.0; N], [0.0; N]);
     let mut put = |index: usize, (sin, cos)| (found.0[index], found.1[index]) = (sin, cos);
-    if angles.iter().all(|&x| has_few_turns(x)) {
+    if angles.iter().all(|&x| margin(x).is_enough()) {
         for start in (0..N).step_by(8) {
             let mut one = |index: usize| {
                 if index < N {
-                    put(index, evaluated(reduced(angles[index]).0));
+                    put(index, evaluated(reduced(angles[index])));
                 }
             };
             one(start);
@@ -50,33 +51,31 @@ pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32;
         }
     } else {
         for (index, angle) in angles.into_iter().enumerate() {
-            put(index, with_many_turns(angle));
+            put(index, hard(angle));
         }
     }
     found
 }
 
-/// Whether the parts of π/2 are good enough for the angle in every lane.
+/// By how much the parts of π/2 are good enough.
 #[inline(always)]
-fn has_few_turns<A: Angle>(x: A) -> bool {
+fn margin<A: Angle>(x: A) -> A {
     let many = many_turns(A::FUSED);
-    (x * x).all_at_most(k(many * many))
+    k::<A>(many * many) - x * x
 }
 
-/// Sine and cosine of `x` radians, in every lane.
+/// Sine and cosine of `x` radians in every lane, good where there are few turns.
 #[inline(always)]
-pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
-    let (angle, good) = reduced(x);
-    // The other lanes of an angle of many turns are reduced as they are when they are alone, to give the same bits.
-    if good { evaluated(angle) } else { x.one_by_one(with_many_turns) }
+pub fn quick<A: Angle>(x: A) -> Quick<A> {
+    let (sin, cos) = evaluated(reduced(x));
+    Quick { sin, cos, margin: margin(x) }
 }
 
 /// Sine and cosine of any angle.
 #[cold]
 #[inline(never)]
-fn with_many_turns<T: Number>(x: T) -> (T, T) {
-    let (quick, good) = reduced(x);
-    evaluated(if good { quick } else { x.reduced() })
+pub fn hard<T: Number>(x: T) -> (T, T) {
+    evaluated(if margin(x).is_enough() { reduced(x) } else { x.reduced() })
 }
 
 /// The constant `value` in every lane.
@@ -91,9 +90,9 @@ fn constants<A: Angle>([a, b, c]: [f32; 3]) -> [A; 3] {
     [k(a), k(b), k(c)]
 }
 
-/// The reduction that is good for few turns, and whether it is good for all of these.
+/// The reduction that is good for few turns.
 #[inline(always)]
-fn reduced<A: Angle>(x: A) -> (Reduced<A>, bool) {
+fn reduced<A: Angle>(x: A) -> Reduced<A> {
     let rounded = x.mul_add(k(core::f32::consts::FRAC_2_PI), k(ROUNDER));
     let minus_n = k::<A>(ROUNDER) - rounded;
     let [a, b, c] = constants::<A>(half_pi(A::FUSED));
@@ -107,7 +106,7 @@ fn reduced<A: Angle>(x: A) -> (Reduced<A>, bool) {
     } else {
         minus_n.mul_add(c, roundoff)
     };
-    (Reduced { rounded, rest, tail }, has_few_turns(x))
+    Reduced { rounded, rest, tail }
 }
 
 /// (sin r − r) / r³ as a polynomial in r².

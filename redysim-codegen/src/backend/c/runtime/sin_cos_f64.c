@@ -18,3 +18,15 @@
 /* Added to a number below 2^51 and taken away again, it leaves the nearest integer, and shows its bits in between. */
 #define REDYSIM_ROUNDER 6755399441055744.0
 #define REDYSIM_2_PI 0.6366197723675814
+
+/*
+ * pi/2 in two parts. If multiply and add round once, a multiple of the first is subtracted exactly though it has all its bits.
+ * If they round twice, the first has 36 bits, of which multiples up to 2^17 are exact.
+ */
+#ifdef REDYSIM_FMA
+#define REDYSIM_HALF_PI_HIGH 1.5707963267948966
+#define REDYSIM_HALF_PI_LOW 6.123233995736766e-17
+#else
+#define REDYSIM_HALF_PI_HIGH 1.5707963267923333
+#define REDYSIM_HALF_PI_LOW 2.563344151594519e-12
+#endif

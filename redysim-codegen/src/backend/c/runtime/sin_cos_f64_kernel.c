@@ -3,8 +3,6 @@ REDYSIM_INLINE void redysim_evaluate(double rounded, double rest, double tail, d
 {
     const double z = rest * rest;
     const double zz = z * z;
-    /* Halves are exact, fused or not. */
-    const double near_one = MULTIPLY_ADD(z, -0.5, 1.0);
     const double s0 = MULTIPLY_ADD(z, 0.008333333333322418, -0.16666666666666632);
     const double s1 = MULTIPLY_ADD(z, 2.755731369357263e-6, -0.0001984126982981238);
     const double s2 = MULTIPLY_ADD(z, 1.5896811798732654e-10, -2.5050758384371987e-8);
@@ -12,10 +10,19 @@ REDYSIM_INLINE void redysim_evaluate(double rounded, double rest, double tail, d
     const double c0 = MULTIPLY_ADD(z, -0.0013888888888874131, 0.0416666666666666);
     const double c1 = MULTIPLY_ADD(z, -2.755731435378898e-7, 2.4801587289487012e-5);
     const double c2 = MULTIPLY_ADD(z, -1.1359658844005114e-11, 2.087572347902117e-9);
-    const double c = MULTIPLY_ADD(zz, MULTIPLY_ADD(zz, c2, c1), c0);
+    const double c3 = MULTIPLY_ADD(zz, c2, c1);
+    /* Halves are exact. */
+#ifdef REDYSIM_FMA
+    const double sin_rest = rest + MULTIPLY_ADD(rest * z, s, tail);
+    /* The square of the rest is not rounded before it is subtracted from 1, so that no correction is needed. */
+    const double beyond_second_order = MULTIPLY_ADD(zz * zz, c3, MULTIPLY_ADD(zz, c0, -rest * tail));
+    const double cos_rest = 1.0 + MULTIPLY_ADD(rest, rest * -0.5, beyond_second_order);
+#else
+    const double near_one = MULTIPLY_ADD(z, -0.5, 1.0);
     const double sin_rest = rest + MULTIPLY_ADD(rest * z, s, tail * near_one);
     const double correction = MULTIPLY_ADD(-rest, tail, MULTIPLY_ADD(z, -0.5, 1.0 - near_one));
-    const double cos_rest = near_one + MULTIPLY_ADD(zz, c, correction);
+    const double cos_rest = near_one + MULTIPLY_ADD(zz, MULTIPLY_ADD(zz, c3, c0), correction);
+#endif
     const uint64_t turns = redysim_bits_of(rounded);
     const uint64_t sin_bits = redysim_bits_of(sin_rest);
     const uint64_t cos_bits = redysim_bits_of(cos_rest);
@@ -34,16 +41,24 @@ REDYSIM_INLINE uint64_t redysim_reduce_quickly(double x, double *rounded, double
     const double n = MULTIPLY_ADD(x, REDYSIM_2_PI, REDYSIM_ROUNDER);
     const double minus_n = REDYSIM_ROUNDER - n;
     /* The first difference is exact; the second leaves its roundoff in the tail. */
-    const double first = MULTIPLY_ADD(minus_n, 1.5707963267923333, x);
-    const double second = MULTIPLY_ADD(minus_n, 2.563344151594519e-12, first);
+    const double first = MULTIPLY_ADD(minus_n, REDYSIM_HALF_PI_HIGH, x);
+    const double second = MULTIPLY_ADD(minus_n, REDYSIM_HALF_PI_LOW, first);
+    const double subtracted = first - second;
     /*
-     * 2^17 quarter turns are too many, and a rest below 2^-33 for each quarter turn has lost too many digits to
-     * cancellation: by squares, of which redysim_evaluate needs that of the rest anyway, and by the signs of differences.
+     * A rest that is small beside what was subtracted has lost too many digits to cancellation, and too much is subtracted after
+     * too many turns: by squares, of which redysim_evaluate needs that of the rest anyway, and by the signs of differences.
      */
+#ifdef REDYSIM_FMA
+    /* 2^-150 is roundoff for the numbers nearest to multiples of pi/2. */
+    const double few_turns = MULTIPLY_ADD(-subtracted, subtracted, 2.3283064365386963e-10);
+    const double large_rest = MULTIPLY_ADD(-subtracted, subtracted, second * second) + 7.006492321624085e-46;
+#else
+    /* 2^17 quarter turns, and 2^-33 for each of them. */
     const double few_turns = MULTIPLY_ADD(-minus_n, minus_n, 17179869184.0);
     const double large_rest = MULTIPLY_ADD(minus_n * -1.3552527156068805e-20, minus_n, second * second);
+#endif
     *rounded = n;
     *rest = second;
-    *tail = MULTIPLY_ADD(minus_n, 2.563344151594519e-12, first - second);
+    *tail = MULTIPLY_ADD(minus_n, REDYSIM_HALF_PI_LOW, subtracted);
     return redysim_bits_of(few_turns) | redysim_bits_of(large_rest);
 }
