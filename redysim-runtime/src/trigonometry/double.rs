@@ -9,11 +9,12 @@
 //! place.
 
 use super::angle::{Angle, Number};
-use super::quick::{Margin, Quick};
+use super::quick::{Quick, is_enough};
 use super::reduction::{ROUNDER, Reduced};
 use crate::scalar::Scalar;
 #[cfg(feature = "lanes")]
 use crate::{lanes::F64x2, registers};
+use core::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 /// π/2 in two parts.
 ///
@@ -21,7 +22,7 @@ use crate::{lanes::F64x2, registers};
 /// is below 1 and has none after the 53rd. If they round twice, the first has 36 bits, of which multiples up to 2¹⁷ are
 /// exact.
 const fn half_pi(fused: bool) -> [f64; 2] {
-    if fused { [1.5707963267948966, 6.123233995736766e-17] } else { [1.5707963267923333, 2.563344151594519e-12] }
+    if fused { [FRAC_PI_2, 6.123233995736766e-17] } else { [1.5707963267923333, 2.563344151594519e-12] }
 }
 
 /// A rest smaller than this for each quarter turn has lost too many digits to cancellation, 2⁻³³, if multiply and add round
@@ -55,7 +56,7 @@ pub fn of_one(x: f64) -> (f64, f64) {
 #[inline(always)]
 pub fn hard<T: Number>(x: T) -> (T, T) {
     let (quick, margin) = reduced(x);
-    evaluated(if margin.is_enough() { quick } else { x.reduced() })
+    evaluated(if is_enough(margin) { quick } else { x.reduced() })
 }
 
 /// The reduction that is good for nearly all angles, and by how much it is good enough.
@@ -63,7 +64,7 @@ pub fn hard<T: Number>(x: T) -> (T, T) {
 fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
     let k = A::from_f64;
     let [high, low] = half_pi(A::FUSED).map(k);
-    let rounded = x.mul_add(k(core::f64::consts::FRAC_2_PI), k(ROUNDER));
+    let rounded = x.mul_add(k(FRAC_2_PI), k(ROUNDER));
     let minus_n = k(ROUNDER) - rounded;
     // The first difference is exact; the second leaves its roundoff in the tail (Dekker: `first` is the larger, or the
     // rest is too small).
@@ -175,9 +176,9 @@ mod tests {
     #[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
     fn numbers_nearest_to_multiples_of_a_right_angle_need_no_more_digits() {
         for turns in -8..=8 {
-            let angle = f64::from(turns) * core::f64::consts::FRAC_PI_2;
+            let angle = f64::from(turns) * FRAC_PI_2;
             let (_, margin) = reduced(angle);
-            assert!(margin.is_enough() || !f64::FUSED, "{turns} quarter turns: the margin is {margin:e}");
+            assert!(is_enough(margin) || !f64::FUSED, "{turns} quarter turns: the margin is {margin:e}");
         }
     }
 
@@ -188,7 +189,7 @@ mod tests {
             [many_turns, -1e16, 1e20, 6381956970095103.0 * libm::exp2(797.0), f64::MAX, f64::INFINITY, f64::NAN]
         {
             let (_, margin) = reduced(angle);
-            assert!(!margin.is_enough(), "{angle:e}");
+            assert!(!is_enough(margin), "{angle:e}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Angles one after the other, each of which is lanes.
 
 use super::angle::{Angle, Number};
-use super::quick::{Margin, Quick};
+use super::quick::{Quick, is_enough};
 
 /// Sines and cosines of all `angles`, as straight code for up to 28 of them, without a branch but for hard ones, after which
 /// all are computed anew.
@@ -31,7 +31,7 @@ pub fn in_turn<A: Angle, const N: usize>(angles: [A; N]) -> ([A; N], [A; N]) {
         )*};
     }
     straight!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27);
-    if least.is_enough() {
+    if is_enough(least) {
         (sines, cosines)
     } else {
         of_negatives(angles.map(

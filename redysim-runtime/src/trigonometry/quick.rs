@@ -14,24 +14,17 @@ pub struct Quick<A> {
 /// the distance of any angle that is too hard.
 const ROUNDOFF: f64 = 1.0 / ((1_u128 << 75) as f64 * (1_u128 << 75) as f64);
 
-/// The margin of a reduction.
-pub trait Margin {
-    /// Whether the reduction is good enough in every lane.
-    fn is_enough(self) -> bool;
-}
-
-impl<A: Angle> Margin for A {
-    #[inline(always)]
-    fn is_enough(self) -> bool {
-        A::from_f64(-ROUNDOFF).all_at_most(self)
-    }
+/// Whether a reduction with this margin is good enough in every lane.
+#[inline(always)]
+pub fn is_enough<A: Angle>(margin: A) -> bool {
+    A::from_f64(-ROUNDOFF).all_at_most(margin)
 }
 
 impl<A: Angle> Quick<A> {
     /// These, which are those of `x`; or, where they are not good enough, those by more digits of π.
     #[inline(always)]
     pub fn or_hard(self, x: A) -> (A, A) {
-        if self.margin.is_enough() {
+        if is_enough(self.margin) {
             return (self.sin, self.cos);
         }
         // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.

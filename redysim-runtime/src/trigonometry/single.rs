@@ -7,7 +7,7 @@
 //! coefficients that are `f32`, `studies/sin_cos/minimax.py`: 2⁻²⁷·⁸ for the sine, 2⁻³¹·⁹ for the cosine), are evaluated.
 
 use super::angle::{Angle, Number};
-use super::quick::{Margin, Quick};
+use super::quick::{Quick, is_enough};
 use super::reduction::Reduced;
 
 /// The number of radians up to which the parts of π/2 are good enough: 2¹⁷ quarter turns, or 2⁸ if multiply and add
@@ -33,7 +33,7 @@ const ROUNDER: f32 = 12_582_912.0;
 pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
     let mut found = ([0.0; N], [0.0; N]);
     let mut put = |index: usize, (sin, cos)| (found.0[index], found.1[index]) = (sin, cos);
-    if angles.iter().all(|&x| margin(x).is_enough()) {
+    if angles.iter().all(|&x| is_enough(margin(x))) {
         for start in (0..N).step_by(8) {
             let mut one = |index: usize| {
                 if index < N {
@@ -75,7 +75,7 @@ pub fn quick<A: Angle>(x: A) -> Quick<A> {
 #[cold]
 #[inline(never)]
 pub fn hard<T: Number>(x: T) -> (T, T) {
-    evaluated(if margin(x).is_enough() { reduced(x) } else { x.reduced() })
+    evaluated(if is_enough(margin(x)) { reduced(x) } else { x.reduced() })
 }
 
 /// The constant `value` in every lane.
