@@ -113,4 +113,4 @@ macro_rules! real {
 }
 
 real!(f64, f64x2, F64x2: 2, F64x4: 4, trigonometry::double::of_one, trigonometry::lists::of_f64, libm::sqrt, libm::fabs, libm::pow);
-real!(f32, f32x4, F32x4: 4, F32x4: 4, trigonometry::quick::sin_cos, trigonometry::lists::of_f32, libm::sqrtf, libm::fabsf, libm::powf);
+real!(f32, f32x4, F32x4: 4, F32x4: 4, trigonometry::fast_path::sin_cos, trigonometry::lists::of_f32, libm::sqrtf, libm::fabsf, libm::powf);

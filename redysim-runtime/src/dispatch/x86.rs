@@ -19,10 +19,9 @@
 use crate::scalar::Scalar;
 use crate::trigonometry::angle::{Angle, Number};
 use crate::trigonometry::in_turn::in_turn;
-use crate::trigonometry::quick::Quick;
 use crate::trigonometry::reduction::Reduced;
 use crate::trigonometry::several::several;
-use crate::trigonometry::{double, quick, single, turns};
+use crate::trigonometry::{double, fast_path, single, turns};
 use core::arch::x86_64::*;
 use core::fmt;
 use core::mem::MaybeUninit;
@@ -114,7 +113,7 @@ macro_rules! numbers {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                quick::sin_cos(self)
+                fast_path::sin_cos(self)
             }
 
             #[inline(always)]
@@ -146,11 +145,6 @@ macro_rules! numbers {
                 let Reduced { rounded, rest, tail } = Number::reduced(self.0);
                 Reduced { rounded: Self(rounded), rest: Self(rest), tail: Self(tail) }
             }
-
-            #[inline(always)]
-            fn hard(self) -> (Self, Self) {
-                $kernel::hard(self)
-            }
         }
 
         impl Angle for $name {
@@ -158,8 +152,13 @@ macro_rules! numbers {
             const FUSED: bool = FUSED;
 
             #[inline(always)]
-            fn quick(self) -> Quick<Self> {
-                $kernel::quick(self)
+            fn fast_reduction(self) -> (Reduced<Self>, Self) {
+                $kernel::reduced(self)
+            }
+
+            #[inline(always)]
+            fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
+                $kernel::evaluated(angle)
             }
 
             #[inline(always)]
@@ -318,7 +317,7 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                quick::sin_cos(self)
+                fast_path::sin_cos(self)
             }
 
             #[inline(always)]
@@ -353,8 +352,13 @@ macro_rules! lanes {
             const FUSED: bool = FUSED;
 
             #[inline(always)]
-            fn quick(self) -> Quick<Self> {
-                $kernel::quick(self)
+            fn fast_reduction(self) -> (Reduced<Self>, Self) {
+                $kernel::reduced(self)
+            }
+
+            #[inline(always)]
+            fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
+                $kernel::evaluated(angle)
             }
 
             #[inline(always)]

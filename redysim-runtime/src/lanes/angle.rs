@@ -4,7 +4,7 @@ use super::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 use crate::registers::Register;
 use crate::scalar::FUSED;
 use crate::trigonometry::angle::Angle;
-use crate::trigonometry::quick::Quick;
+use crate::trigonometry::reduction::Reduced;
 use crate::trigonometry::{double, single};
 use bytemuck::cast;
 use wide::{u32x4, u32x8, u32x16, u64x2, u64x4, u64x8};
@@ -16,8 +16,13 @@ macro_rules! angles {
             const FUSED: bool = FUSED;
 
             #[inline(always)]
-            fn quick(self) -> Quick<Self> {
-                $kernel::quick(self)
+            fn fast_reduction(self) -> (Reduced<Self>, Self) {
+                $kernel::reduced(self)
+            }
+
+            #[inline(always)]
+            fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
+                $kernel::evaluated(angle)
             }
 
             #[inline(always)]
@@ -40,8 +45,8 @@ macro_rules! angles {
                 let (one, three) = ($bits::splat(1), $bits::splat(3));
                 let [turns, sin, cos]: [$bits; 3] = [cast(rounded.0), cast(sin.0), cast(cos.0)];
                 let odd = Self(cast($bits::splat(0) - (turns & one))).0;
-                // The second bit of the turns goes to the sign. The first, which goes beside it, is taken away after odd turns,
-                // and the cosine then has the other sign.
+                // The second bit of the turns becomes the sign. The first one moves to the bit below; after odd turns it is
+                // removed there, and the cosine changes its sign.
                 let turns = turns << $second_bit_to_sign;
                 let (sin, cos) = (sin ^ turns, cos ^ turns);
                 let odd_sin = cos ^ (one << $second_bit_to_sign);

@@ -4,7 +4,7 @@ use super::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 use crate::registers::Register;
 use crate::scalar::{FUSED, Scalar};
 use crate::trigonometry::in_turn::in_turn;
-use crate::trigonometry::{quick, turns};
+use crate::trigonometry::{fast_path, turns};
 
 macro_rules! scalar {
     ($lanes:ident($wide:ident) of $float:ident) => {
@@ -16,7 +16,7 @@ macro_rules! scalar {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                quick::sin_cos(self)
+                fast_path::sin_cos(self)
             }
 
             #[inline(always)]

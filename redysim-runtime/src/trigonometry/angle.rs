@@ -1,6 +1,5 @@
 //! What the kernels ask of their angles beyond arithmetic.
 
-use super::quick::Quick;
 use super::reduction::{self, Reduced};
 use super::{double, single, single_reduction};
 use crate::scalar::{FUSED, Scalar};
@@ -12,8 +11,11 @@ pub trait Angle: Scalar {
     /// Whether `mul_add` rounds once.
     const FUSED: bool;
 
-    /// Sine and cosine by the quick reduction.
-    fn quick(self) -> Quick<Self>;
+    /// The Cody-Waite reduction, and the margin of its accuracy, see [`is_accurate`](super::fast_path::is_accurate).
+    fn fast_reduction(self) -> (Reduced<Self>, Self);
+
+    /// Sine and cosine of a reduced angle.
+    fn evaluated(angle: Reduced<Self>) -> (Self, Self);
 
     /// Whether every lane is at most that of `limit`; NaN is not.
     fn all_at_most(self, limit: Self) -> bool;
@@ -36,9 +38,6 @@ pub trait Number: Angle<Number = Self> {
 
     /// The reduction of any angle, however hard; NaN where it is not finite.
     fn reduced(self) -> Reduced<Self>;
-
-    /// Sine and cosine by the quick reduction where it is good enough, and by [`reduced`](Number::reduced) elsewhere.
-    fn hard(self) -> (Self, Self);
 }
 
 macro_rules! one_angle {
@@ -50,11 +49,6 @@ macro_rules! one_angle {
             fn reduced(self) -> Reduced<Self> {
                 $reduced(self)
             }
-
-            #[inline(always)]
-            fn hard(self) -> (Self, Self) {
-                $kernel::hard(self)
-            }
         }
 
         impl Angle for $float {
@@ -62,8 +56,13 @@ macro_rules! one_angle {
             const FUSED: bool = FUSED;
 
             #[inline(always)]
-            fn quick(self) -> Quick<Self> {
-                $kernel::quick(self)
+            fn fast_reduction(self) -> (Reduced<Self>, Self) {
+                $kernel::reduced(self)
+            }
+
+            #[inline(always)]
+            fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
+                $kernel::evaluated(angle)
             }
 
             #[inline(always)]

@@ -1,15 +1,17 @@
 //! Sine and cosine of `f64`.
 //!
-//! The angle is reduced to |r| ≤ π/4 with a tail that carries what a `f64` cannot: by subtracting π/2 in two parts, or,
-//! where that is not enough (many quarter turns, or an angle beside a multiple of π/2), with more digits (`reduction`).
+//! The angle is reduced to |r| ≤ π/4 with a tail that carries what a `f64` cannot: by subtracting π/2 in two parts (W. J. Cody
+//! and W. Waite, *Software manual for the elementary functions*, 1980), or, where that is not enough (many quarter turns, or
+//! an angle beside a multiple of π/2), with more digits (`reduction`).
 //! Then two polynomials in r², of least relative error (found by Remez exchange: 2⁻⁵⁷ for the sine, 2⁻⁵⁹ for the
 //! cosine), are evaluated.
 //!
-//! Where multiply-adds round once, the parts of π/2 are longer, and fewer operations give an error below 1 unit in the last
-//! place.
+//! With fused multiply-adds the parts of π/2 are longer, and fewer operations keep the error below 1 unit in the last place.
 
-use super::angle::{Angle, Number};
-use super::quick::{Quick, is_enough};
+use super::angle::Angle;
+use super::fast_path::sin_cos;
+#[cfg(feature = "lanes")]
+use super::fast_path::{is_accurate, slow_path};
 use super::reduction::{ROUNDER, Reduced};
 use crate::scalar::Scalar;
 #[cfg(feature = "lanes")]
@@ -18,27 +20,17 @@ use core::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 /// π/2 in two parts.
 ///
-/// If multiply and add round once, a multiple of the first is subtracted exactly though it has all its bits: the difference
-/// is below 1 and has none after the 53rd. If they round twice, the first has 36 bits, of which multiples up to 2¹⁷ are
-/// exact.
+/// With fused multiply-adds the first part has full precision: x − n · π/2 is less than 1 in magnitude and a multiple of
+/// 2⁻⁵³, so it is exact. Without them the first part has 36 bits, so that its multiples up to 2¹⁷ are exact.
 const fn half_pi(fused: bool) -> [f64; 2] {
     if fused { [FRAC_PI_2, 6.123233995736766e-17] } else { [1.5707963267923333, 2.563344151594519e-12] }
 }
 
-/// A rest smaller than this for each quarter turn has lost too many digits to cancellation, 2⁻³³, if multiply and add round
-/// twice.
+/// The least rest for each quarter turn, 2⁻³³, without fused multiply-adds: a smaller one has lost too many digits to
+/// cancellation.
 const TOO_SMALL: f64 = 1.0 / (1_u64 << 33) as f64;
-/// The square of what is too small after so many quarter turns that others are to reduce the angle: 2¹⁷, or some 2³⁷ if
-/// multiply and add round once.
+/// The square of the least rest at the largest number of quarter turns: 2¹⁷, or some 2³⁷ with fused multiply-adds.
 const MANY_TURNS: f64 = 1.0 / (1_u64 << 32) as f64;
-
-/// Sine and cosine of `x` radians in every lane, good where the quick reduction is.
-#[inline(always)]
-pub fn quick<A: Angle>(x: A) -> Quick<A> {
-    let (angle, margin) = reduced(x);
-    let (sin, cos) = evaluated(angle);
-    Quick { sin, cos, margin }
-}
 
 /// Sine and cosine of one angle.
 #[inline(always)]
@@ -46,22 +38,14 @@ pub fn of_one(x: f64) -> (f64, f64) {
     #[cfg(feature = "lanes")]
     if registers::VECTORS {
         let (angle, margin) = reduced(x);
-        let (sin, cos) = side_by_side(angle);
-        return Quick { sin, cos, margin }.or_hard(x);
+        return if is_accurate(margin) { side_by_side(angle) } else { x.one_by_one(slow_path) };
     }
-    quick(x).or_hard(x)
+    sin_cos(x)
 }
 
-/// Sine and cosine of one angle, of which the quick reduction may not be good enough.
+/// The reduction that is accurate for nearly all angles, and its margin.
 #[inline(always)]
-pub fn hard<T: Number>(x: T) -> (T, T) {
-    let (quick, margin) = reduced(x);
-    evaluated(if is_enough(margin) { quick } else { x.reduced() })
-}
-
-/// The reduction that is good for nearly all angles, and by how much it is good enough.
-#[inline(always)]
-fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
+pub fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
     let k = A::from_f64;
     let [high, low] = half_pi(A::FUSED).map(k);
     let rounded = x.mul_add(k(FRAC_2_PI), k(ROUNDER));
@@ -72,8 +56,8 @@ fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
     let rest = minus_n.mul_add(low, first);
     let subtracted = first - rest;
     let tail = minus_n.mul_add(low, subtracted);
-    // By squares, of which the kernel needs that of the rest anyway: one difference for both, and no signs. If multiply and
-    // add round once, `subtracted` is exact where it is not larger than the rest, and the low part is good for 2⁻⁵⁵ of it.
+    // Squares need no absolute values, and the kernel computes that of the rest anyway. With fused multiply-adds `subtracted` is
+    // exact where it is not larger than the rest, and the error of the low part is at most 2⁻⁵⁵ of it.
     let too_small = if A::FUSED { subtracted } else { minus_n * k(TOO_SMALL) };
     let margin = (-too_small).mul_add(too_small, (rest * rest).lesser(k(MANY_TURNS)));
     (Reduced { rounded, rest, tail }, margin)
@@ -101,19 +85,20 @@ const COSINE: [f64; 6] = [
 
 /// Sine and cosine of an angle that is reduced.
 #[inline(always)]
-fn evaluated<A: Angle>(Reduced { rounded, rest: r, tail }: Reduced<A>) -> (A, A) {
+pub fn evaluated<A: Angle>(Reduced { rounded, rest: r, tail }: Reduced<A>) -> (A, A) {
     let z = r * r;
     let squares = z * z;
-    let [sine, cosine] = [SINE, COSINE].map(|terms| Polynomial::of(|term| A::from_f64(terms[term]), z, squares));
+    let polynomial = |terms: [f64; 6]| Polynomial::of(|term| A::from_f64(terms[term]), z, squares);
     let (sin, cos) = if A::FUSED {
-        // r² is not rounded before it is subtracted from 1, so that no correction is needed.
-        let sin = r + (r * z).mul_add(sine.value(squares), tail);
-        let beyond_second_order = (squares * squares).mul_add(cosine.high, squares.mul_add(cosine.low, -r * tail));
+        let sin = r + (r * z).mul_add(polynomial(SINE).value(squares), tail);
+        let Polynomial { low, high } = polynomial(COSINE);
+        let beyond_second_order = (squares * squares).mul_add(high, squares.mul_add(low, -r * tail));
+        // The product r · (−r/2) is exact, so that it needs no correction.
         (sin, A::one() + r.mul_add(r * A::from_f64(-0.5), beyond_second_order))
     } else {
         let (near_one, correction) = second_order_cosine(z, r, tail);
-        let sin = r + (r * z).mul_add(sine.value(squares), tail * near_one);
-        (sin, near_one + squares.mul_add(cosine.value(squares), correction))
+        let sin = r + (r * z).mul_add(polynomial(SINE).value(squares), tail * near_one);
+        (sin, near_one + squares.mul_add(polynomial(COSINE).value(squares), correction))
     };
     A::turned(rounded, sin, cos)
 }
@@ -147,8 +132,7 @@ fn second_order_cosine<A: Angle>(z: A, r: A, tail: A) -> (A, A) {
     (near_one, (-r).mul_add(tail, z.mul_add(minus_half, one - near_one)))
 }
 
-/// A polynomial of six terms in z, in two parts: low + z² · high. Neighbouring terms are paired, so that fewer operations
-/// wait for each other.
+/// A polynomial of six terms in z by Estrin's scheme, which shortens the chain of dependent operations: low + z² · high.
 struct Polynomial<A> {
     low: A,
     high: A,
@@ -169,27 +153,27 @@ impl<A: Scalar> Polynomial<A> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fast_path::is_accurate;
     use super::*;
 
-    /// A posture of right angles takes no longer than others.
     #[test]
     #[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
-    fn numbers_nearest_to_multiples_of_a_right_angle_need_no_more_digits() {
+    fn the_numbers_nearest_to_right_angles_take_the_fast_path() {
         for turns in -8..=8 {
             let angle = f64::from(turns) * FRAC_PI_2;
             let (_, margin) = reduced(angle);
-            assert!(is_enough(margin) || !f64::FUSED, "{turns} quarter turns: the margin is {margin:e}");
+            assert!(is_accurate(margin) || !f64::FUSED, "{turns} quarter turns: the margin is {margin:e}");
         }
     }
 
     #[test]
-    fn angles_of_many_turns_need_more_digits() {
+    fn angles_of_many_turns_do_not_take_the_fast_path() {
         let many_turns = if f64::FUSED { 1e12 } else { 1e6 };
         for angle in
             [many_turns, -1e16, 1e20, 6381956970095103.0 * libm::exp2(797.0), f64::MAX, f64::INFINITY, f64::NAN]
         {
             let (_, margin) = reduced(angle);
-            assert!(!is_enough(margin), "{angle:e}");
+            assert!(!is_accurate(margin), "{angle:e}");
         }
     }
 }

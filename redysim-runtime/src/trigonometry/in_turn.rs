@@ -1,10 +1,10 @@
 //! Angles one after the other, each of which is lanes.
 
-use super::angle::{Angle, Number};
-use super::quick::{Quick, is_enough};
+use super::angle::Angle;
+use super::fast_path::{is_accurate, slow_path};
 
-/// Sines and cosines of all `angles`, as straight code for up to 28 of them, without a branch but for hard ones, after which
-/// all are computed anew.
+/// Sines and cosines of all `angles`: straight code for up to 28 of them, with one branch, by which all are computed again if
+/// one of them needs the slow path.
 ///
 /// In a loop, sines and cosines go through memory. Copies of lanes there may be made in pieces (LLVM moves 512 bits by two
 /// times 256 on processors of Intel), and to read as a whole what was written in pieces stalls the processor. Straight code
@@ -23,15 +23,15 @@ pub fn in_turn<A: Angle, const N: usize>(angles: [A; N]) -> ([A; N], [A; N]) {
     macro_rules! straight {
         ($($index:literal)*) => {$(
             if $index < N {
-                let Quick { sin, cos, margin } = angles[$index].quick();
-                (sines[$index], cosines[$index]) = (sin, cos);
-                // In this order a margin that is NaN, as that of an infinite angle, hides no other.
+                let (angle, margin) = angles[$index].fast_reduction();
+                (sines[$index], cosines[$index]) = A::evaluated(angle);
+                // In this order a margin that is NaN, as that of an infinite angle, does not replace the others.
                 least = margin.lesser(least);
             }
         )*};
     }
     straight!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27);
-    if is_enough(least) {
+    if is_accurate(least) {
         (sines, cosines)
     } else {
         of_negatives(angles.map(
@@ -41,15 +41,16 @@ pub fn in_turn<A: Angle, const N: usize>(angles: [A; N]) -> ([A; N], [A; N]) {
     }
 }
 
-/// Sines and cosines of the negatives of `angles`, of which some are hard. Negatives are other lanes, which are put into memory
-/// for this call; the angles themselves stay in registers.
+/// Sines and cosines of the negatives of `angles`, of which some need the slow path.
+///
+/// The caller passes negatives so that only these are written to memory for the call, and its angles stay in registers.
 #[cold]
 #[inline(never)]
 fn of_negatives<A: Angle, const N: usize>(angles: [A; N]) -> ([A; N], [A; N]) {
     let zero = A::from_f64(0.0);
     let (mut sines, mut cosines) = ([zero; N], [zero; N]);
     for ((sin, cos), angle) in sines.iter_mut().zip(&mut cosines).zip(&angles) {
-        (*sin, *cos) = (-*angle).one_by_one(Number::hard);
+        (*sin, *cos) = (-*angle).one_by_one(slow_path);
     }
     (sines, cosines)
 }
@@ -72,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hard_angle_is_reduced_with_more_digits_whatever_stands_beside_it() {
+    fn an_angle_of_many_turns_is_accurate_beside_angles_that_are_not_finite() {
         for order in [[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
             for beside in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                 let angles = order.map(|index| F64x4::from([[1e300, beside, 0.5][index]; 4]));

@@ -6,8 +6,8 @@
 //! is seen by trying every one. Then two polynomials in r², of least relative error (found by Remez exchange with
 //! coefficients that are `f32`, `studies/sin_cos/minimax.py`: 2⁻²⁷·⁸ for the sine, 2⁻³¹·⁹ for the cosine), are evaluated.
 
-use super::angle::{Angle, Number};
-use super::quick::{Quick, is_enough};
+use super::angle::Angle;
+use super::fast_path::{is_accurate, slow_path};
 use super::reduction::Reduced;
 
 /// The number of radians up to which the parts of π/2 are good enough: 2¹⁷ quarter turns, or 2⁸ if multiply and add
@@ -33,11 +33,11 @@ const ROUNDER: f32 = 12_582_912.0;
 pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
     let mut found = ([0.0; N], [0.0; N]);
     let mut put = |index: usize, (sin, cos)| (found.0[index], found.1[index]) = (sin, cos);
-    if angles.iter().all(|&x| is_enough(margin(x))) {
+    if angles.iter().all(|&x| is_accurate(margin(x))) {
         for start in (0..N).step_by(8) {
             let mut one = |index: usize| {
                 if index < N {
-                    put(index, evaluated(reduced(angles[index])));
+                    put(index, evaluated(reduced(angles[index]).0));
                 }
             };
             one(start);
@@ -51,31 +51,17 @@ pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32;
         }
     } else {
         for (index, angle) in angles.into_iter().enumerate() {
-            put(index, hard(angle));
+            put(index, angle.one_by_one(slow_path));
         }
     }
     found
 }
 
-/// By how much the parts of π/2 are good enough.
+/// Positive where the parts of π/2 are accurate enough.
 #[inline(always)]
 fn margin<A: Angle>(x: A) -> A {
     let many = many_turns(A::FUSED);
     k::<A>(many * many) - x * x
-}
-
-/// Sine and cosine of `x` radians in every lane, good where there are few turns.
-#[inline(always)]
-pub fn quick<A: Angle>(x: A) -> Quick<A> {
-    let (sin, cos) = evaluated(reduced(x));
-    Quick { sin, cos, margin: margin(x) }
-}
-
-/// Sine and cosine of any angle.
-#[cold]
-#[inline(never)]
-pub fn hard<T: Number>(x: T) -> (T, T) {
-    evaluated(if is_enough(margin(x)) { reduced(x) } else { x.reduced() })
 }
 
 /// The constant `value` in every lane.
@@ -90,9 +76,9 @@ fn constants<A: Angle>([a, b, c]: [f32; 3]) -> [A; 3] {
     [k(a), k(b), k(c)]
 }
 
-/// The reduction that is good for few turns.
+/// The reduction that is accurate for few turns, and its margin.
 #[inline(always)]
-fn reduced<A: Angle>(x: A) -> Reduced<A> {
+pub fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
     let rounded = x.mul_add(k(core::f32::consts::FRAC_2_PI), k(ROUNDER));
     let minus_n = k::<A>(ROUNDER) - rounded;
     let [a, b, c] = constants::<A>(half_pi(A::FUSED));
@@ -106,7 +92,7 @@ fn reduced<A: Angle>(x: A) -> Reduced<A> {
     } else {
         minus_n.mul_add(c, roundoff)
     };
-    Reduced { rounded, rest, tail }
+    (Reduced { rounded, rest, tail }, margin(x))
 }
 
 /// (sin r − r) / r³ as a polynomial in r².
@@ -117,7 +103,7 @@ const COSINE: [f32; 3] = [0.041_666_646, -0.001_388_733_5, 2.443_594_7e-5];
 
 /// Sine and cosine of a reduced angle, |rest| ≤ π/4.
 #[inline(always)]
-fn evaluated<A: Angle>(Reduced { rounded, rest, tail }: Reduced<A>) -> (A, A) {
+pub fn evaluated<A: Angle>(Reduced { rounded, rest, tail }: Reduced<A>) -> (A, A) {
     let z = rest * rest;
     let [a, b, c] = constants::<A>(SINE);
     let sin = rest + (rest * z).mul_add(c.mul_add(z, b).mul_add(z, a), tail);

@@ -2,7 +2,7 @@
 
 use super::angle::{Angle, Number};
 use super::double;
-use super::quick::{self, Quick};
+use super::fast_path;
 use super::reduction::Reduced;
 use crate::scalar::Scalar;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -12,7 +12,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 ///
 /// For constants that are computed while code is generated: these are not to depend on the machine that generates it.
 pub fn unfused_sin_cos(angle: f64) -> (f64, f64) {
-    let (Unfused(sin), Unfused(cos)) = quick::sin_cos(Unfused(angle));
+    let (Unfused(sin), Unfused(cos)) = fast_path::sin_cos(Unfused(angle));
     (sin, cos)
 }
 
@@ -58,7 +58,7 @@ impl Scalar for Unfused {
     }
 
     fn sin_cos(self) -> (Self, Self) {
-        quick::sin_cos(self)
+        fast_path::sin_cos(self)
     }
 
     fn sqrt(self) -> Self {
@@ -73,18 +73,18 @@ impl Number for Unfused {
         let Reduced { rounded, rest, tail } = Number::reduced(self.0);
         Reduced { rounded: Unfused(rounded), rest: Unfused(rest), tail: Unfused(tail) }
     }
-
-    fn hard(self) -> (Self, Self) {
-        double::hard(self)
-    }
 }
 
 impl Angle for Unfused {
     type Number = Self;
     const FUSED: bool = false;
 
-    fn quick(self) -> Quick<Self> {
-        double::quick(self)
+    fn fast_reduction(self) -> (Reduced<Self>, Self) {
+        double::reduced(self)
+    }
+
+    fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
+        double::evaluated(angle)
     }
 
     fn all_at_most(self, limit: Self) -> bool {

@@ -20,8 +20,8 @@
 #define REDYSIM_2_PI 0.6366197723675814
 
 /*
- * pi/2 in two parts. If multiply and add round once, a multiple of the first is subtracted exactly though it has all its bits.
- * If they round twice, the first has 36 bits, of which multiples up to 2^17 are exact.
+ * pi/2 in two parts. With fused multiply-adds the first part has full precision, and x - n * pi/2 is exact. Without them the
+ * first part has 36 bits, so that its multiples up to 2^17 are exact.
  */
 #ifdef REDYSIM_FMA
 #define REDYSIM_HALF_PI_HIGH 1.5707963267948966

@@ -14,7 +14,7 @@ REDYSIM_INLINE void redysim_evaluate(double rounded, double rest, double tail, d
     /* Halves are exact. */
 #ifdef REDYSIM_FMA
     const double sin_rest = rest + MULTIPLY_ADD(rest * z, s, tail);
-    /* The square of the rest is not rounded before it is subtracted from 1, so that no correction is needed. */
+    /* The product rest * (-rest/2) is exact, so that it needs no correction. */
     const double beyond_second_order = MULTIPLY_ADD(zz * zz, c3, MULTIPLY_ADD(zz, c0, -rest * tail));
     const double cos_rest = 1.0 + MULTIPLY_ADD(rest, rest * -0.5, beyond_second_order);
 #else
@@ -45,15 +45,15 @@ REDYSIM_INLINE uint64_t redysim_reduce_quickly(double x, double *rounded, double
     const double second = MULTIPLY_ADD(minus_n, REDYSIM_HALF_PI_LOW, first);
     const double subtracted = first - second;
     /*
-     * A rest that is small beside what was subtracted has lost too many digits to cancellation, and too much is subtracted after
-     * too many turns: by squares, of which redysim_evaluate needs that of the rest anyway, and by the signs of differences.
+     * Too many quarter turns, or a rest that has lost too many digits to cancellation, make one of two differences negative.
+     * Squares need no absolute values, and redysim_evaluate computes that of the rest anyway.
      */
 #ifdef REDYSIM_FMA
-    /* 2^-150 is roundoff for the numbers nearest to multiples of pi/2. */
+    /* Roundoff leaves the numbers nearest to multiples of pi/2 a difference little below zero, more than -2^-150. */
     const double few_turns = MULTIPLY_ADD(-subtracted, subtracted, 2.3283064365386963e-10);
     const double large_rest = MULTIPLY_ADD(-subtracted, subtracted, second * second) + 7.006492321624085e-46;
 #else
-    /* 2^17 quarter turns, and 2^-33 for each of them. */
+    /* At most 2^17 quarter turns, and a rest of at least 2^-33 for each of them. */
     const double few_turns = MULTIPLY_ADD(-minus_n, minus_n, 17179869184.0);
     const double large_rest = MULTIPLY_ADD(minus_n * -1.3552527156068805e-20, minus_n, second * second);
 #endif
