@@ -32,13 +32,13 @@ pub fn in_turn<A: Angle, const N: usize>(angles: [A; N]) -> ([A; N], [A; N]) {
     }
     straight!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27);
     if is_accurate(least) {
-        (sines, cosines)
-    } else {
-        of_negatives(angles.map(
-            #[inline(always)]
-            |angle| -angle,
-        ))
+        return (sines, cosines);
     }
+    let mut negatives = angles;
+    for angle in &mut negatives {
+        *angle = -*angle;
+    }
+    of_negatives(negatives)
 }
 
 /// Sines and cosines of the negatives of `angles`, of which some need the slow path.
@@ -47,12 +47,17 @@ pub fn in_turn<A: Angle, const N: usize>(angles: [A; N]) -> ([A; N], [A; N]) {
 #[cold]
 #[inline(never)]
 fn of_negatives<A: Angle, const N: usize>(angles: [A; N]) -> ([A; N], [A; N]) {
-    let zero = A::from_f64(0.0);
-    let (mut sines, mut cosines) = ([zero; N], [zero; N]);
-    for ((sin, cos), angle) in sines.iter_mut().zip(&mut cosines).zip(&angles) {
-        (*sin, *cos) = (-*angle).one_by_one(slow_path);
-    }
-    (sines, cosines)
+    A::with_target_features(
+        #[inline(always)]
+        || {
+            let zero = A::from_f64(0.0);
+            let (mut sines, mut cosines) = ([zero; N], [zero; N]);
+            for ((sin, cos), angle) in sines.iter_mut().zip(&mut cosines).zip(&angles) {
+                (*sin, *cos) = (-*angle).one_by_one(slow_path);
+            }
+            (sines, cosines)
+        },
+    )
 }
 
 #[cfg(test)]
