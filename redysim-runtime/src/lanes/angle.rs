@@ -37,7 +37,12 @@ macro_rules! angles {
 
             #[inline(always)]
             fn lesser(self, other: Self) -> Self {
-                Self(self.0.fast_min(other.0))
+                // Where an operand is NaN, the minimum is the second operand on x86-64 and the first one in WebAssembly.
+                if cfg!(target_feature = "simd128") {
+                    Self(other.0.fast_min(self.0))
+                } else {
+                    Self(self.0.fast_min(other.0))
+                }
             }
 
             #[inline(always)]

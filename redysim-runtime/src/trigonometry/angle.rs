@@ -36,7 +36,7 @@ pub trait Number: Angle<Number = Self> {
     /// π/2 as the sum of two numbers.
     const HALF_PI: [Self; 2];
 
-    /// The reduction of any angle, however hard; NaN where it is not finite.
+    /// The reduction of any angle with as many digits of π as it needs; NaN where it is not finite.
     fn reduced(self) -> Reduced<Self>;
 }
 

@@ -50,14 +50,15 @@ pub fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
     let [high, low] = half_pi(A::FUSED).map(k);
     let rounded = x.mul_add(k(FRAC_2_PI), k(ROUNDER));
     let minus_n = k(ROUNDER) - rounded;
-    // The first difference is exact; the second leaves its roundoff in the tail (Dekker: `first` is the larger, or the
-    // rest is too small).
+    // The first difference is exact; the second leaves its roundoff in the tail. `subtracted` is exact: without fused
+    // multiply-adds since `first` is the larger (T. J. Dekker, 1971) or the rest is too small, with them as below.
     let first = minus_n.mul_add(high, x);
     let rest = minus_n.mul_add(low, first);
     let subtracted = first - rest;
     let tail = minus_n.mul_add(low, subtracted);
     // Squares need no absolute values, and the kernel computes that of the rest anyway. With fused multiply-adds `subtracted` is
-    // exact where it is not larger than the rest, and the error of the low part is at most 2⁻⁵⁵ of it.
+    // exact where it is not larger than the rest, as `first` is a multiple of 2⁻⁵³, and the error of the low part is at most
+    // 2⁻⁵⁵ of it.
     let too_small = if A::FUSED { subtracted } else { minus_n * k(TOO_SMALL) };
     let margin = (-too_small).mul_add(too_small, (rest * rest).lesser(k(MANY_TURNS)));
     (Reduced { rounded, rest, tail }, margin)

@@ -6,7 +6,7 @@ use super::angle::{Angle, Number};
 /// The lowest margin with which a reduction is accurate enough: −2⁻¹⁵⁰.
 ///
 /// Roundoff leaves the numbers nearest to multiples of π/2 a margin this little below zero. That of an angle that needs more
-/// digits of π is lower.
+/// digits of π is lower. In `f32`, where these numbers have none, the constant rounds to −0.
 const LOWEST_MARGIN: f64 = -7.006492321624085e-46;
 
 /// Whether a reduction with this margin is accurate enough in every lane.

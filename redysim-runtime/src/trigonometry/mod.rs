@@ -1,6 +1,6 @@
 //! Sine and cosine without panics, of one angle or of several at once, the same bits either way.
 //!
-//! `double` and `single` are the kernels, written once over any number of lanes (`angle`); `fast_path` tells whether their
+//! `double` and `single` are the kernels, written once over any number of lanes (`angle`); `fast_path` decides whether their
 //! own reduction is accurate enough, and `reduction` is that of the few other angles; `several` spreads a list of angles over
 //! lanes.
 //!

@@ -2,7 +2,7 @@
 //!
 //! The angle is reduced to |r| ≤ π/4 with a tail that carries what an `f32` cannot, by subtracting π/2 in three parts
 //! (W. J. Cody and W. Waite, *Software manual for the elementary functions*, 1980), or, after many turns, in integers
-//! (`single_reduction`). No angle of few turns comes closer to a multiple of π/2 than the three parts are good for, as
+//! (`single_reduction`). No angle of few turns comes closer to a multiple of π/2 than the three parts are accurate for, as
 //! is seen by trying every one. Then two polynomials in r², of least relative error (found by Remez exchange with
 //! coefficients that are `f32`, `studies/sin_cos/minimax.py`: 2⁻²⁷·⁸ for the sine, 2⁻³¹·⁹ for the cosine), are evaluated.
 
@@ -10,7 +10,7 @@ use super::angle::Angle;
 use super::fast_path::{is_accurate, slow_path};
 use super::reduction::Reduced;
 
-/// The number of radians up to which the parts of π/2 are good enough: 2¹⁷ quarter turns, or 2⁸ if multiply and add
+/// The number of radians up to which the parts of π/2 are accurate enough: 2¹⁷ quarter turns, or 2⁸ if multiply and add
 /// round twice.
 const fn many_turns(fused: bool) -> f32 {
     if fused { 205_887.0 } else { 402.0 }
@@ -25,6 +25,7 @@ const fn half_pi(fused: bool) -> [f32; 3] {
 
 /// Added to a number below 2²² and taken away again, it leaves the nearest integer, and shows its bits in between.
 const ROUNDER: f32 = 12_582_912.0;
+
 /// Sines and cosines of all `angles`, for a processor without vectors.
 ///
 /// Up to eight become straight code after one decision, so that constants stay in registers from angle to angle.
