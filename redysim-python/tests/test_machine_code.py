@@ -60,7 +60,7 @@ def test_code_for_one_state_has_256_bits_and_lanes_have_512(model, tmp_path, mon
     every_without, arithmetic_without = wide_instructions(library(model, wide, tmp_path / "wide", monkeypatch))
     # Sines and cosines are inlined, but for those of large angles.
     single = [name for name in every if name.startswith("mechanism_") or "hard" in name]
-    assert {"mechanism_inverse_dynamics", "redysim_sin_cos_of_hard"} < set(single)
+    assert {"mechanism_inverse_dynamics", "redysim_slow_sin_cos"} < set(single)
     assert {name: every[name] for name in single if every[name] > 0} == {}
     # Functions in lanes, and what puts states into lanes, with no less of 512 bits than GCC chooses by itself.
     many = [name for name in every_without if name.startswith("redysim_") and name not in single]

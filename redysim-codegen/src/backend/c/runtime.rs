@@ -9,10 +9,10 @@ const NUMBERS: &str = include_str!("runtime/numbers.c");
 const BITS: &str = include_str!("runtime/bits.c");
 const SIN_COS_F64: &str = include_str!("runtime/sin_cos_f64.c");
 const KERNEL_F64: &str = include_str!("runtime/sin_cos_f64_kernel.c");
-const HARD_F64: &str = include_str!("runtime/sin_cos_f64_hard.c");
+const SLOW_PATH_F64: &str = include_str!("runtime/sin_cos_f64_slow_path.c");
 const SIN_COS_F32: &str = include_str!("runtime/sin_cos_f32.c");
 const KERNEL_F32: &str = include_str!("runtime/sin_cos_f32_kernel.c");
-const HARD_F32: &str = include_str!("runtime/sin_cos_f32_hard.c");
+const SLOW_PATH_F32: &str = include_str!("runtime/sin_cos_f32_slow_path.c");
 const SIN_COS: &str = include_str!("runtime/sin_cos_of_angles.c");
 const LIBRARY_SIN_COS: &str = include_str!("runtime/library_sin_cos.c");
 const ONE_ANGLE: &str = include_str!("runtime/one_angle.c");
@@ -45,9 +45,9 @@ pub fn parts(needed: Needed, scalar: CScalar) -> String {
     if !(needed.angles || needed.sine || needed.cosine) {
         return text;
     }
-    let (head, kernel, hard) = match scalar {
-        CScalar::F64 => (SIN_COS_F64, KERNEL_F64, HARD_F64),
-        CScalar::F32 => (SIN_COS_F32, KERNEL_F32, HARD_F32),
+    let (head, kernel, slow_path) = match scalar {
+        CScalar::F64 => (SIN_COS_F64, KERNEL_F64, SLOW_PATH_F64),
+        CScalar::F32 => (SIN_COS_F32, KERNEL_F32, SLOW_PATH_F32),
     };
     // The same code twice: over numbers and over vectors of them.
     let kernel = kernel_of(kernel, scalar);
@@ -58,7 +58,7 @@ pub fn parts(needed: Needed, scalar: CScalar) -> String {
     let names =
         [("group_type", &group), ("x86_128", &x86[0]), ("x86_256", &x86[1]), ("any_128", &any), ("none_256", &none)];
     let angles = of_scalar(&filled(SIN_COS, &names.map(|(name, value)| (name, value.as_str()))), scalar);
-    let own = [head, &of_scalar(NUMBERS, scalar), &kernel, hard, &angles].join("\n");
+    let own = [head, &of_scalar(NUMBERS, scalar), &kernel, slow_path, &angles].join("\n");
     text += &format!("\n#if defined(REDYSIM_LIBM) || defined(REDYSIM_SINCOS)\n{}", of_scalar(LIBRARY_SIN_COS, scalar));
     if needed.without_turns {
         text += "\n/* Angles stay as they are. */\n#define redysim_without_turns(count, angles) ((void)(angles))\n";
@@ -82,7 +82,7 @@ pub fn parts_of_lanes(needed: Needed) -> String {
     format!("{LANES}\n{}\n{LANES_SIN_COS}", in_vectors(&kernel_of(KERNEL_F64, CScalar::F64), CScalar::F64, "lanes"))
 }
 
-/// Sines and cosines of angles that are not hard, without branches.
+/// Sines and cosines of angles by the fast path, without branches.
 fn kernel_of(kernel: &str, scalar: CScalar) -> String {
     format!("{}\n{kernel}", of_scalar(BITS, scalar))
 }
@@ -140,7 +140,7 @@ fn in_vectors(code: &str, scalar: CScalar, name: &str) -> String {
     }
     text = text.replace("MULTIPLY_ADD", &format!("REDYSIM_{}_MULTIPLY_ADD", name.to_uppercase()));
     text = text.replace("redysim_bits number", &format!("{vector}_union number"));
-    for function in ["bits_of", "number_of", "evaluate", "reduce_quickly"] {
+    for function in ["bits_of", "number_of", "evaluate", "fast_reduction"] {
         text = text.replace(&format!("redysim_{function}("), &format!("{vector}_{function}("));
     }
     text

@@ -1,19 +1,19 @@
-/* Sines and cosines of angles in lanes; where one of them is hard, one after the other. */
+/* Sines and cosines of angles in lanes; where one of them needs the slow path, one after the other. */
 REDYSIM_SHARED void redysim_lanes_sin_cos(
     int count, const redysim_lanes *angles, redysim_lanes *sines, redysim_lanes *cosines)
 {
-    redysim_lanes_bits hard = {0};
+    redysim_lanes_bits inaccurate = {0};
     uint64_t any = 0U;
     for (int i = 0; i < count; i++) {
         redysim_lanes rounded, rest, tail;
-        hard |= redysim_lanes_reduce_quickly(angles[i], &rounded, &rest, &tail);
+        inaccurate |= redysim_lanes_fast_reduction(angles[i], &rounded, &rest, &tail);
         redysim_lanes_evaluate(rounded, rest, tail, &sines[i], &cosines[i]);
     }
     for (int lane = 0; lane < REDYSIM_LANES; lane++) {
-        any |= hard[lane];
+        any |= inaccurate[lane];
     }
     if (any >> 63) {
-        redysim_sin_cos_of_hard(
+        redysim_slow_sin_cos(
             count * REDYSIM_LANES, (const double *)angles, (double *)sines, (double *)cosines);
     }
 }

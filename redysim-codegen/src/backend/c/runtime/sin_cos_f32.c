@@ -16,7 +16,7 @@
 /* Added to a number below 2^22 and taken away again, it leaves the nearest integer, and shows its bits in between. */
 #define REDYSIM_ROUNDER 12582912.0f
 /*
- * pi/2 in three parts, and the number of radians up to which they are good enough. If multiply and add round
+ * pi/2 in three parts, and the number of radians up to which they are accurate enough. If multiply and add round
  * once, a multiple of the first is subtracted exactly though it has all 24 bits: up to 2^17 quarter turns. If
  * they round twice, the first and the second have 16 bits, of which multiples up to 2^8 are exact.
  */

@@ -20,8 +20,8 @@ REDYSIM_INLINE void redysim_evaluate(float rounded, float rest, float tail, floa
     *cosine = redysim_number_of(cos_bits ^ both ^ (turns << 31));
 }
 
-/* The reduction that is good for few turns. The first bit of the result is set where it is not good for this angle. */
-REDYSIM_INLINE uint32_t redysim_reduce_quickly(float x, float *rounded, float *rest, float *tail)
+/* The reduction that is accurate for few turns. The first bit of the result is set where it is not for this angle. */
+REDYSIM_INLINE uint32_t redysim_fast_reduction(float x, float *rounded, float *rest, float *tail)
 {
     const float n = MULTIPLY_ADD(x, 0.63661975f, REDYSIM_ROUNDER);
     const float minus_n = REDYSIM_ROUNDER - n;

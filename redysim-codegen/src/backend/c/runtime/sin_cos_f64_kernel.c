@@ -35,8 +35,8 @@ REDYSIM_INLINE void redysim_evaluate(double rounded, double rest, double tail, d
     *cosine = redysim_number_of(cos_bits ^ differing ^ (((turns + 1U) & 2U) << 62));
 }
 
-/* The reduction that is good for nearly all angles. The first bit of the result is set where it is not good for this one. */
-REDYSIM_INLINE uint64_t redysim_reduce_quickly(double x, double *rounded, double *rest, double *tail)
+/* The reduction that is accurate for nearly all angles. The first bit of the result is set where it is not for this one. */
+REDYSIM_INLINE uint64_t redysim_fast_reduction(double x, double *rounded, double *rest, double *tail)
 {
     const double n = MULTIPLY_ADD(x, REDYSIM_2_PI, REDYSIM_ROUNDER);
     const double minus_n = REDYSIM_ROUNDER - n;

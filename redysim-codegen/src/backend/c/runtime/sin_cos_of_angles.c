@@ -1,9 +1,9 @@
-/* Angles one after the other, of which some are hard. */
-REDYSIM_COLD void redysim_sin_cos_of_hard(int count, const @number@ *angles, @number@ *sines, @number@ *cosines)
+/* Angles one after the other, of which some need the slow path. */
+REDYSIM_COLD void redysim_slow_sin_cos(int count, const @number@ *angles, @number@ *sines, @number@ *cosines)
 {
     for (int i = 0; i < count; i++) {
         redysim_reduced angle;
-        if (redysim_reduce_quickly(angles[i], &angle.rounded, &angle.rest, &angle.tail) >> (@bits@ - 1)) {
+        if (redysim_fast_reduction(angles[i], &angle.rounded, &angle.rest, &angle.tail) >> (@bits@ - 1)) {
             angle = redysim_reduce(angles[i]);
         }
         redysim_evaluate(angle.rounded, angle.rest, angle.tail, &sines[i], &cosines[i]);
@@ -19,16 +19,16 @@ REDYSIM_COLD void redysim_sin_cos_of_hard(int count, const @number@ *angles, @nu
 #endif
 
 /*
- * Those of a group of which some are hard. It is passed as a value, so that angles need not be stored for it, and registers are
+ * Those of a group of which some need the slow path. It is passed as a value, so that angles need not be stored for it, and registers are
  * left to the caller, which else would have to save its arguments from a function that it hardly ever calls.
  */
-REDYSIM_COLD REDYSIM_PRESERVING void redysim_sin_cos_of_hard_group(redysim_group group, @number@ *sines, @number@ *cosines)
+REDYSIM_COLD REDYSIM_PRESERVING void redysim_slow_sin_cos_of_group(redysim_group group, @number@ *sines, @number@ *cosines)
 {
     @number@ angles[REDYSIM_GROUP];
     for (int place = 0; place < REDYSIM_GROUP; place++) {
         angles[place] = group[place];
     }
-    redysim_sin_cos_of_hard(REDYSIM_GROUP, angles, sines, cosines);
+    redysim_slow_sin_cos(REDYSIM_GROUP, angles, sines, cosines);
 }
 
 /* The angles from number `first` on; places without an angle repeat the last one. */
@@ -60,20 +60,20 @@ REDYSIM_INLINE int redysim_group_any(redysim_group_bits bits)
 /* Sines and cosines of angles, in arrays with room for whole groups. */
 REDYSIM_INLINE void redysim_sin_cos(int count, const @number@ *angles, @number@ *sines, @number@ *cosines)
 {
-    redysim_group_bits hard = {0};
+    redysim_group_bits inaccurate = {0};
     for (int i = 0; i < count; i += REDYSIM_GROUP) {
         redysim_group rounded, rest, tail, sine, cosine;
-        hard |= redysim_group_reduce_quickly(redysim_group_of(i, count, angles), &rounded, &rest, &tail);
+        inaccurate |= redysim_group_fast_reduction(redysim_group_of(i, count, angles), &rounded, &rest, &tail);
         redysim_group_evaluate(rounded, rest, tail, &sine, &cosine);
         for (int place = 0; place < REDYSIM_GROUP; place++) {
             sines[i + place] = sine[place];
             cosines[i + place] = cosine[place];
         }
     }
-    if (redysim_group_any(hard)) {
+    if (redysim_group_any(inaccurate)) {
         for (int i = 0; i < count; i += REDYSIM_GROUP) {
             @number@ some_sines[REDYSIM_GROUP], some_cosines[REDYSIM_GROUP];
-            redysim_sin_cos_of_hard_group(redysim_group_of(i, count, angles), some_sines, some_cosines);
+            redysim_slow_sin_cos_of_group(redysim_group_of(i, count, angles), some_sines, some_cosines);
             for (int place = 0; place < REDYSIM_GROUP; place++) {
                 sines[i + place] = some_sines[place];
                 cosines[i + place] = some_cosines[place];
@@ -82,18 +82,18 @@ REDYSIM_INLINE void redysim_sin_cos(int count, const @number@ *angles, @number@ 
     }
 }
 #else
-/* Sines and cosines of angles, without branches but for hard ones, after which all are computed anew. */
+/* Sines and cosines of angles, with one branch, by which all are computed again if one of them needs the slow path. */
 REDYSIM_SHARED void redysim_sin_cos(
     int count, const @number@ *restrict angles, @number@ *restrict sines, @number@ *restrict cosines)
 {
-    uint@bits@_t hard = 0U;
+    uint@bits@_t inaccurate = 0U;
     for (int i = 0; i < count; i++) {
         @number@ rounded, rest, tail;
-        hard |= redysim_reduce_quickly(angles[i], &rounded, &rest, &tail);
+        inaccurate |= redysim_fast_reduction(angles[i], &rounded, &rest, &tail);
         redysim_evaluate(rounded, rest, tail, &sines[i], &cosines[i]);
     }
-    if (hard >> (@bits@ - 1)) {
-        redysim_sin_cos_of_hard(count, angles, sines, cosines);
+    if (inaccurate >> (@bits@ - 1)) {
+        redysim_slow_sin_cos(count, angles, sines, cosines);
     }
 }
 #endif
