@@ -7,7 +7,7 @@ pub use crate::forward_dynamics::{MethodChoice, MethodFigures};
 use crate::lumping::{lumped, tree_with_parameters};
 use crate::passes::{PassError, Passes, applied, simplified};
 use crate::policies::LONGEST_CHAIN_BY_FACTORISATION;
-use crate::pruning::{Pruning, StateRange, States, pruned};
+use crate::pruning::{Given, Pruning, StateRange, States, pruned};
 use crate::reroll;
 use crate::siblings::{self, Siblings};
 use crate::symbol::{Symbol, SymbolicTree, Tracer};
@@ -194,19 +194,22 @@ impl<'p> Pipeline<'_, 'p> {
             if whole.expressions.is_long() || !has_tolerance(function) {
                 return Ok(TracedFunction { expressions: associated, ..whole });
             }
-            // Accelerations are sampled at the forces of motions within the ranges.
-            let forces = match function.signature().result {
-                Shape::Accelerations => Some(match forces.get() {
-                    Some(forces) => forces,
-                    None => {
-                        let computed = unpruned(Function::InverseDynamics)?.expressions;
-                        forces.get_or_init(|| computed)
-                    }
-                }),
-                _ => None,
+            // Forces that are given are those of motions within the ranges.
+            let forces = || match forces.get() {
+                Some(forces) => Ok(forces),
+                None => {
+                    let computed = unpruned(Function::InverseDynamics)?.expressions;
+                    Ok(forces.get_or_init(|| computed))
+                }
             };
-            let states = States { tree: self.tree, ranges, forces };
             let shape = function.signature().result;
+            let actuated = self.tree.actuated();
+            let given = match shape {
+                Shape::Accelerations => Given::Forces(forces()?),
+                Shape::HybridMotion => Given::Hybrid(forces()?, &actuated),
+                _ => Given::Accelerations,
+            };
+            let states = States { tree: self.tree, ranges, given };
             let (expressions, pruning) = pruned(&whole.expressions, shape, &states, *tolerance, passes)?;
             let pruning = Pruning { before: associated.count(), ..pruning };
             Ok(TracedFunction { expressions: self.associated(&expressions)?, pruning: Some(pruning), ..whole })
@@ -295,7 +298,10 @@ fn cheapest(trees: &[SymbolicTree], function: Function, passes: &Passes) -> Resu
 /// Whether a tolerance bounds the errors of a function. Wrenches have no ranges within which it could.
 fn has_tolerance(function: Function) -> bool {
     !function.needs_frames()
-        && matches!(function.signature().result, Shape::Forces | Shape::Accelerations | Shape::MassMatrix)
+        && matches!(
+            function.signature().result,
+            Shape::Forces | Shape::Accelerations | Shape::MassMatrix | Shape::HybridMotion
+        )
 }
 
 /// Why the functions of a model cannot be traced with the given options.

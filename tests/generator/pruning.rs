@@ -40,7 +40,7 @@ fn traced(model: &Model, functions: &[&str], tolerance: f64) -> Vec<TracedFuncti
 }
 
 /// The worst error of a function at other states than those it was pruned at, as a share of the largest value, or of the mass
-/// matrix of √(M_ii M_jj) at its largest. Accelerations are those of the forces that `inverse` needs.
+/// matrix of √(M_ii M_jj) at its largest. Forces that are given are those that `inverse` needs.
 fn worst(
     whole: &TracedFunction,
     pruned: &TracedFunction,
@@ -51,7 +51,7 @@ fn worst(
     let JointRange { position: [least, largest], velocity, acceleration: Some(acceleration), .. } = range else {
         panic!("{range:?} has no acceleration");
     };
-    let (joints, neutral) = (tree.nv(), denoc::neutral::<f64>(tree));
+    let (joints, neutral, actuated) = (tree.nv(), denoc::neutral::<f64>(tree), tree.actuated());
     let (mut sizes, mut errors) = (Vec::new(), Vec::new());
     let mut random = Random::new(1);
     for state in 0..20_000 {
@@ -63,8 +63,13 @@ fn worst(
         let q = vector(0.5 * (largest - least), false).iter().map(|x| x + 0.5 * (least + largest)).collect::<Vec<_>>();
         let q = denoc::integrate(tree, &neutral, &q);
         let (v, mut given) = (vector(velocity, state % 2 == 0), vector(acceleration, state % 2 == 0));
-        if whole.function == Function::ForwardDynamics {
-            given = inverse.expressions.evaluate(&[&q, &v, &given]);
+        if matches!(whole.function, Function::ForwardDynamics | Function::HybridDynamics) {
+            let forces = inverse.expressions.evaluate(&[&q, &v, &given]);
+            for (velocity, force) in forces.into_iter().enumerate() {
+                if whole.function == Function::ForwardDynamics || !actuated[velocity] {
+                    given[velocity] = force;
+                }
+            }
         }
         let arguments = &[&q[..], &v, &given][..whole.function.signature().arguments.len()];
         let [whole, pruned] = [whole, pruned].map(|function| function.expressions.evaluate(arguments));
@@ -134,6 +139,25 @@ fn forces_accelerations_and_masses_of_a_spherical_joint_on_an_arm_stay_within_th
             assert!(pruned.pruning.is_some_and(|pruning| pruning.holds), "{function} to {tolerance:e}");
             assert!(tolerance < 0.1 || after.flops() < before.flops(), "{function}: nothing is left out");
         }
+    }
+}
+
+/// The motion of the base is found, whose joint has no actuators, and the forces of the joints.
+#[test]
+fn hybrid_dynamics_of_a_robot_on_a_free_base_stays_within_the_tolerance() {
+    let range = JointRange { position: [-1.0, 1.5], velocity: 2.0, acceleration: Some(5.0), force: None };
+    let model = with_range(model("floating_three_link"), range);
+    let names = ["inverse_dynamics", "hybrid_dynamics"];
+    let [inverse, whole] = whole(&model, &names).try_into().unwrap();
+    let tolerances: &[f64] = if cfg!(debug_assertions) { &[1e-1] } else { &[1e-1, 1e-3] };
+    for &tolerance in tolerances {
+        let pruned = traced(&model, &["hybrid_dynamics"], tolerance).swap_remove(0);
+        let (before, after) = (whole.expressions.count().flops(), pruned.expressions.count().flops());
+        let error = worst(&whole, &pruned, &inverse, range, &Tree::new(&model));
+        println!("to {tolerance:e}: {after} of {before} flops, {error:.2e}");
+        assert!(error <= tolerance, "to {tolerance:e}: {error:e}");
+        assert!(pruned.pruning.is_some_and(|pruning| pruning.holds), "to {tolerance:e}");
+        assert!(tolerance < 0.1 || after < before, "nothing is left out");
     }
 }
 

@@ -1,7 +1,7 @@
 //! How far a pruned function is from the whole one.
 
 use super::columns::{Columns, evaluate, live, sign};
-use super::states::States;
+use super::states::{Sampled, States};
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph};
 use redysim_runtime::function::Shape;
@@ -59,10 +59,15 @@ fn share_of(error: f64, scale: f64) -> f64 {
 /// The scale of each output, of which its error is a share: of a joint force, the force that the joint's range states,
 /// if any; of an element of the mass matrix, √(M_ii M_jj) at its largest; else the largest size of the output.
 pub fn scales(shape: Shape, states: &States, sizes: &[f64]) -> Vec<f64> {
+    let of_forces = |sizes: &[f64]| -> Vec<f64> {
+        let stated = states.ranges.iter().map(|range| range.force);
+        stated.zip(sizes).map(|(stated, &size)| stated.unwrap_or(size)).collect()
+    };
     match shape {
-        Shape::Forces => {
-            let stated = states.ranges.iter().map(|range| range.force);
-            stated.zip(sizes).map(|(stated, &size)| stated.unwrap_or(size)).collect()
+        Shape::Forces => of_forces(sizes),
+        Shape::HybridMotion => {
+            let (accelerations, forces) = sizes.split_at(states.ranges.len());
+            [accelerations, &of_forces(forces)].concat()
         }
         Shape::MassMatrix => {
             let order = sizes.len().isqrt();
@@ -77,17 +82,17 @@ pub fn scales(shape: Shape, states: &States, sizes: &[f64]) -> Vec<f64> {
 /// one.
 fn extremes(both: &Expressions, states: &States, blocks: Range<usize>, seed: u64) -> Extremes {
     let live = live(both);
+    let velocities = states.ranges.len();
     let mut values = Columns::new(both.graph.len(), BLOCK);
     let (whole, pruned) = both.outputs.split_at(both.outputs.len() / 2);
     let mut extremes = Extremes { sizes: vec![0.0; whole.len()], errors: vec![0.0; whole.len()] };
     for block in blocks {
-        let arguments = states.arguments(BLOCK, seed + block as u64);
-        evaluate(both, &live, &arguments, &mut values);
         // Of accelerations the exact values are known: those that the forces were computed for.
-        let exact = states.forces.map(|_| states.motion(BLOCK, seed + block as u64));
+        let Sampled { arguments, exact } = states.sampled(BLOCK, seed + block as u64);
+        evaluate(both, &live, &arguments, &mut values);
         for (output, (&old, &new)) in whole.iter().zip(pruned).enumerate() {
             let old = match &exact {
-                Some([_, _, accelerations]) => (1.0, accelerations.column(output)),
+                Some(vectors) => (1.0, vectors[output / velocities].column(output % velocities)),
                 None => (sign(old), values.column(old.node())),
             };
             let (size, error) = size_and_difference(old, (sign(new), values.column(new.node())));

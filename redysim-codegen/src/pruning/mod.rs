@@ -24,7 +24,8 @@ use measure::{scales, worst_error};
 use redysim_runtime::OperationCount;
 use redysim_runtime::function::Shape;
 use round::{Sample, round};
-pub use states::{StateRange, States};
+use states::Sampled;
+pub use states::{Given, StateRange, States};
 
 /// What pruning has done to a function.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,7 +117,7 @@ fn sample(whole: &Expressions, shape: Shape, states: &States) -> Sample {
     }
     let live = live(whole);
     let fitting = LARGEST_STORE / (outputs.len() * live.len()).max(1);
-    let arguments = states.arguments(fitting.clamp(SMALLEST_SAMPLE, LARGEST_SAMPLE), 1);
+    let Sampled { arguments, .. } = states.sampled(fitting.clamp(SMALLEST_SAMPLE, LARGEST_SAMPLE), 1);
     let mut values = Columns::new(whole.graph.len(), arguments[0].states());
     evaluate(whole, &live, &arguments, &mut values);
     let of = |output: Edge| values.column(output.node()).iter().map(move |value| sign(output) * value);

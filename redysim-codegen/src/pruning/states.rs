@@ -32,33 +32,69 @@ pub struct States<'a> {
     pub tree: &'a Tree,
     /// The ranges of displacement, velocity and acceleration, in the order of the velocities.
     pub ranges: &'a [StateRange],
-    /// Inverse dynamics, where the third argument of the function is joint forces.
-    pub forces: Option<&'a Expressions>,
+    /// What the third argument of the function is.
+    pub given: Given<'a>,
+}
+
+/// What the third argument of a function is, if it has one.
+#[derive(Clone, Copy)]
+pub enum Given<'a> {
+    /// Accelerations.
+    Accelerations,
+    /// Joint forces, which this inverse dynamics has; the function finds the accelerations.
+    Forces(&'a Expressions),
+    /// The accelerations of the velocities with an actuator and the joint forces of the others, by inverse dynamics and
+    /// whether each velocity has an actuator; the function finds the accelerations and the joint forces of all.
+    Hybrid(&'a Expressions, &'a [bool]),
+}
+
+/// A function's arguments in a number of states.
+pub struct Sampled {
+    /// The arguments.
+    pub arguments: Vec<Columns>,
+    /// What the function finds there, as far as the motion has it: vectors of a number for each velocity.
+    pub exact: Option<Vec<Columns>>,
 }
 
 impl States<'_> {
-    /// The arguments in `states` states: coordinates, velocities, and accelerations or the forces that cause them.
+    /// The arguments in `states` states: coordinates, velocities, and what is [given](Given) in the same motion.
     ///
     /// In half of the states velocities, in half accelerations are at their limits, in every eighth so are coordinates:
     /// joint forces are linear in accelerations and quadratic in velocities, so that this is where terms are largest.
-    pub fn arguments(&self, states: usize, seed: u64) -> Vec<Columns> {
-        let [q, v, a] = self.motion(states, seed);
-        let Some(forces) = self.forces else { return vec![q, v, a] };
-        let motion = vec![q, v, a];
-        let mut values = Columns::new(forces.graph.len(), states);
-        evaluate(forces, &live(forces), &motion, &mut values);
+    pub fn sampled(&self, states: usize, seed: u64) -> Sampled {
+        let motion = Vec::from(self.motion(states, seed));
+        let (inverse_dynamics, actuated) = match self.given {
+            Given::Accelerations => return Sampled { arguments: motion, exact: None },
+            Given::Forces(inverse_dynamics) => (inverse_dynamics, None),
+            Given::Hybrid(inverse_dynamics, actuated) => (inverse_dynamics, Some(actuated)),
+        };
+        let tau = self.forces(inverse_dynamics, &motion, states);
+        let [q, v, a] = <[Columns; 3]>::try_from(motion).expect("three arguments");
+        let Some(actuated) = actuated else {
+            return Sampled { arguments: vec![q, v, tau], exact: Some(vec![a]) };
+        };
+        let mut given = tau.clone();
+        for velocity in (0..actuated.len()).filter(|&velocity| actuated[velocity]) {
+            given.column_mut(velocity).copy_from_slice(a.column(velocity));
+        }
+        Sampled { arguments: vec![q, v, given], exact: Some(vec![a, tau]) }
+    }
+
+    /// The joint forces of a motion.
+    fn forces(&self, inverse_dynamics: &Expressions, motion: &[Columns], states: usize) -> Columns {
+        let mut values = Columns::new(inverse_dynamics.graph.len(), states);
+        evaluate(inverse_dynamics, &live(inverse_dynamics), motion, &mut values);
         let mut tau = Columns::new(self.ranges.len(), states);
-        for (joint, &output) in forces.outputs.iter().enumerate() {
+        for (joint, &output) in inverse_dynamics.outputs.iter().enumerate() {
             let given = values.column(output.node());
             tau.column_mut(joint).iter_mut().zip(given).for_each(|(tau, value)| *tau = sign(output) * value);
         }
-        let [q, v, _] = <[Columns; 3]>::try_from(motion).expect("three arguments");
-        vec![q, v, tau]
+        tau
     }
 
     /// Coordinates, velocities and accelerations in the same states. A position is a displacement from the zero
     /// position, one number for each velocity.
-    pub fn motion(&self, states: usize, seed: u64) -> [Columns; 3] {
+    fn motion(&self, states: usize, seed: u64) -> [Columns; 3] {
         let mut random = Random::new(seed);
         let [mut v, mut a] = [0; 2].map(|_| Columns::new(self.ranges.len(), states));
         let mut q = Columns::new(self.tree.nq(), states);
