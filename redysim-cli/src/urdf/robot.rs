@@ -295,7 +295,13 @@ fn root<'u>(document: &Document, urdf: &Elements<'u>, base: Base) -> Result<&'u 
             .help("with `--base free` its link floats"));
     }
     match roots.as_slice() {
-        [root] => on_root(document, urdf, root).map(|()| *root),
+        [root] => {
+            on_root(document, urdf, root)?;
+            if base == Base::Free {
+                floats_with_inertia(document, urdf, root)?
+            }
+            Ok(*root)
+        }
         [] if urdf.links.is_empty() => Err(document.fault(document.robot(), "the robot has no links")),
         [] => Err(document
             .fault(document.robot(), "no link is the root: each hangs on another, in a circle")
@@ -305,6 +311,18 @@ fn root<'u>(document: &Document, urdf: &Elements<'u>, base: Base) -> Result<&'u 
             Err(document.fault_at("link", others[0], message).help("join them: one link carries all others"))
         }
     }
+}
+
+/// A root that floats has an inertia, or carries a link that does not float on it.
+fn floats_with_inertia(document: &Document, urdf: &Elements, root: &str) -> Result<(), Failure> {
+    let has_inertia = urdf.links.iter().any(|link| link.name == root && !link.inertial.is_none());
+    let mut joints = urdf.joints.iter().filter(|joint| joint.parent == root).peekable();
+    if has_inertia || joints.peek().is_none() || joints.any(|joint| joint.kind != JointKind::Free) {
+        return Ok(());
+    }
+    let message =
+        format!("the root link `{root}` has no inertia, and carries nothing but links that float: it cannot float");
+    Err(document.fault_at("link", root, message).help("leave out `--base free`: the root is the ground then"))
 }
 
 /// Every link hangs on the root in the end.

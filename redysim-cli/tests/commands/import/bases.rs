@@ -51,6 +51,20 @@ fn a_fault_of_the_root_link_of_a_floating_robot_is_reported_on_its_line() {
     assert!(run.code == 1 && run.stderr.contains("robot.urdf:2: link `bus`"), "{}", run.output());
 }
 
+#[test]
+fn an_empty_root_under_floating_links_is_the_ground_and_does_not_float() {
+    let urdf = "<robot name=\"drone\">\n<link name=\"world\"/>\n<link name=\"hull\"><inertial><mass value=\"2\"/>\
+                <inertia ixx=\"0.1\" iyy=\"0.2\" izz=\"0.3\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n\
+                <joint name=\"flight\" type=\"floating\"><parent link=\"world\"/><child link=\"hull\"/></joint></robot>";
+    let run = import_from(&folder_with(urdf), &["--base", "free"]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    for words in ["robot.urdf:2: the root link `world` has no inertia", "leave out `--base free`"] {
+        assert!(run.stderr.contains(words), "`{words}` in:\n{}", run.stderr);
+    }
+    let (mechanism, _) = import(urdf, &[]);
+    assert_eq!(mechanism.model().links[0].joint_name, "flight");
+}
+
 /// A body of 2 kg whose centre of mass is 0.1 m above its origin.
 #[test]
 fn a_robot_of_one_link_without_joints_floats_on_a_free_base_and_is_refused_on_a_fixed_one() {
