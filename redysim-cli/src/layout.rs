@@ -4,8 +4,8 @@
 use std::ops::Range;
 
 use redysim_model::Model;
-use redysim_model::joint::LinkJoint;
 pub use redysim_model::joint::Measure;
+use redysim_model::joint::{EulerSequence, LinkJoint, Series};
 
 /// The joints that move, with their coordinates and velocities, all in the model's order.
 #[derive(Clone, Debug, Default)]
@@ -23,8 +23,6 @@ pub struct Layout {
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// Whether each of its velocities has an actuator.
-    pub actuated: bool,
     /// How it moves.
     pub motion: LinkJoint,
     /// Its coordinates.
@@ -71,6 +69,19 @@ impl Joint {
         !self.motion.is_linear()
     }
 
+    /// The sequence of Euler angles that are its last three coordinates, if its orientation is given by some.
+    pub fn euler_sequence(&self) -> Option<EulerSequence> {
+        match self.motion {
+            LinkJoint::Series(Series::Spherical(sequence) | Series::Free(sequence)) => Some(sequence),
+            _ => None,
+        }
+    }
+
+    /// Whether its coordinates are an orientation in space, and maybe a position before it: a quaternion, or Euler angles.
+    pub fn has_orientation(&self) -> bool {
+        self.is_in_space() || self.euler_sequence().is_some()
+    }
+
     /// Which of its coordinates are its orientation, a quaternion x, y, z, w; none of a joint of one coordinate.
     pub fn orientation(&self) -> Range<usize> {
         let Range { start, end } = self.motion.quaternion();
@@ -109,8 +120,7 @@ impl Layout {
         for (velocity, &actuated) in self.velocities[v.clone()].iter_mut().zip(actuated) {
             velocity.actuated = actuated;
         }
-        let actuated = actuated.iter().all(|actuated| *actuated);
-        self.joints.push(Joint { name: name.to_owned(), actuated, motion, q, v });
+        self.joints.push(Joint { name: name.to_owned(), motion, q, v });
     }
 
     /// How many coordinates there are.
@@ -123,22 +133,75 @@ impl Layout {
         self.velocities.len()
     }
 
-    /// The coordinates of some of the joints.
-    pub fn coordinates_of(&self, joints: &[usize]) -> Vec<usize> {
-        joints.iter().flat_map(|&joint| self.joints[joint].q.clone()).collect()
+    /// The joint of a velocity.
+    pub fn joint_of(&self, velocity: usize) -> &Joint {
+        &self.joints[self.velocities[velocity].joint]
     }
 
-    /// The velocities of some of the joints.
-    pub fn velocities_of(&self, joints: &[usize]) -> Vec<usize> {
-        joints.iter().flat_map(|&joint| self.joints[joint].v.clone()).collect()
-    }
-
-    /// What messages report of a joint that does not have an actuator for each of its velocities.
-    pub fn lacking_actuators(&self, joint: &Joint) -> &'static str {
-        match self.velocities[joint.v.clone()].iter().any(|velocity| velocity.actuated) {
-            true => "has actuators for some of its velocities only",
-            false => "has no actuator",
+    /// The coordinates that velocities change, in their order and each once: that of each, but all of a joint with a
+    /// quaternion.
+    pub fn coordinates_along(&self, velocities: &[usize]) -> Vec<usize> {
+        let mut coordinates = Vec::new();
+        for &velocity in velocities {
+            let joint = self.joint_of(velocity);
+            let first = joint.q.start + velocity - joint.v.start;
+            let changed = if joint.is_in_space() { joint.q.clone() } else { first..first + 1 };
+            coordinates.extend(changed.filter(|coordinate| !coordinates.contains(coordinate)).collect::<Vec<_>>());
         }
+        coordinates
+    }
+
+    /// The names of `velocities`: that of a joint where all of its velocities follow each other, else of each.
+    pub fn names(&self, velocities: &[usize]) -> Vec<&str> {
+        let (mut names, mut rest) = (Vec::new(), velocities);
+        while let [first, ..] = rest {
+            let joint = self.joint_of(*first);
+            let is_whole = rest.get(..joint.v.len()).is_some_and(|some| some.iter().copied().eq(joint.v.clone()));
+            let (name, count) = match is_whole {
+                true => (&joint.name, joint.v.len()),
+                false => (&self.velocities[*first].name, 1),
+            };
+            names.push(name.as_str());
+            rest = &rest[count..];
+        }
+        names
+    }
+
+    /// What messages call the first of `velocities`: its joint, if they have all velocities of that.
+    pub fn first_of(&self, velocities: &[usize]) -> Option<String> {
+        let first = *velocities.first()?;
+        Some(match self.has_all_of(velocities, first) {
+            true => format!("the joint `{}`", self.joint_of(first).name),
+            false => format!("the velocity `{}`", self.velocities[first].name),
+        })
+    }
+
+    /// What the first of `velocities` without an actuator is called, and what messages report of it; `None` if all have one.
+    pub fn lacking_actuators(&self, velocities: &[usize]) -> Option<(String, &'static str)> {
+        let is_passive = |velocity: &usize| !self.velocities[*velocity].actuated;
+        let first = velocities.iter().copied().find(is_passive)?;
+        let joint = self.joint_of(first);
+        if self.has_all_of(velocities, first) && !joint.v.clone().all(|velocity| is_passive(&velocity)) {
+            return Some((format!("the joint `{}`", joint.name), "has actuators for some of its velocities only"));
+        }
+        let passive: Vec<usize> = velocities.iter().copied().filter(is_passive).collect();
+        Some((self.first_of(&passive)?, "has no actuator"))
+    }
+
+    /// The first of `velocities` that belongs to a joint with a quaternion of which they do not have all velocities, in
+    /// their order: such a joint has a position only as a whole.
+    pub fn part_of_quaternion(&self, velocities: &[usize]) -> Option<usize> {
+        let is_part = |velocity: &usize| {
+            let joint = self.joint_of(*velocity);
+            let is_whole = |some: &[usize]| some.iter().copied().eq(joint.v.clone());
+            joint.is_in_space() && !velocities.windows(joint.v.len()).any(is_whole)
+        };
+        velocities.iter().copied().find(is_part)
+    }
+
+    /// Whether `velocities` have all velocities of the joint of one of them.
+    fn has_all_of(&self, velocities: &[usize], one: usize) -> bool {
+        self.joint_of(one).v.clone().all(|velocity| velocities.contains(&velocity))
     }
 
     /// The velocities that have an actuator.
@@ -188,9 +251,37 @@ pub mod tests {
     fn joints_find_their_coordinates_and_velocities_behind_a_free_joint() {
         let layout = free_base_with_arm();
         assert_eq!((layout.nq(), layout.nv()), (8, 7));
-        assert_eq!((layout.coordinates_of(&[1]), layout.velocities_of(&[1])), (vec![7], vec![6]));
-        assert_eq!(layout.coordinates_of(&[0]), [0, 1, 2, 3, 4, 5, 6]);
-        assert_eq!(layout.velocities_of(&[1, 0]), [6, 0, 1, 2, 3, 4, 5]);
+        assert_eq!((layout.joints[1].q.clone(), layout.joints[1].v.clone()), (7..8, 6..7));
+        assert_eq!(layout.coordinates_along(&[6]), [7]);
+    }
+
+    #[test]
+    fn velocities_of_a_joint_with_a_quaternion_change_all_its_coordinates_and_others_their_own() {
+        let mut layout = free_base_with_arm();
+        layout.push("swivel", &[true, false], joint::LinkJoint::Series(joint::Series::Universal));
+        assert_eq!(layout.coordinates_along(&[8, 4, 1, 6]), [9, 0, 1, 2, 3, 4, 5, 6, 7]);
+    }
+
+    #[test]
+    fn velocities_are_called_by_their_joint_where_they_are_all_of_it() {
+        let mut layout = free_base_with_arm();
+        layout.push("swivel", &[true, false], joint::LinkJoint::Series(joint::Series::Universal));
+        assert_eq!(layout.names(&[6, 7, 8, 0, 1, 2, 3, 4, 5]), ["arm", "swivel", "base"]);
+        assert_eq!(layout.names(&[8, 7, 5]), ["swivel.theta", "swivel.phi", "base.wz"]);
+        let lacking =
+            |velocities: &[usize]| layout.lacking_actuators(velocities).map(|(name, what)| format!("{name} {what}"));
+        assert_eq!(lacking(&[6, 7]), None);
+        assert_eq!(lacking(&[7, 8]).unwrap(), "the joint `swivel` has actuators for some of its velocities only");
+        assert_eq!(lacking(&[6, 8]).unwrap(), "the velocity `swivel.theta` has no actuator");
+        assert_eq!(lacking(&[0, 1, 2, 3, 4, 5, 6]).unwrap(), "the joint `base` has no actuator");
+    }
+
+    #[test]
+    fn a_joint_with_a_quaternion_is_whole_only_with_all_its_velocities_in_their_order() {
+        let layout = free_base_with_arm();
+        assert_eq!(layout.part_of_quaternion(&[6, 0, 1, 2, 3, 4, 5]), None);
+        assert_eq!(layout.part_of_quaternion(&[6, 0, 1, 2, 3, 5, 4]), Some(0));
+        assert_eq!(layout.part_of_quaternion(&[6, 4]), Some(4));
     }
 
     #[test]

@@ -38,6 +38,7 @@ mod c_compiler;
 mod closed;
 mod commands;
 mod data;
+mod euler_angles;
 mod failure;
 mod interrupt;
 mod kind;

@@ -1,7 +1,8 @@
 // Plays the page `animation.html` of a results folder in headless Chromium, and holds where the camera is against the base
-// in `kinematics.csv`: node camera.mjs FOLDER MOTION LINK NORMAL, where MOTION is how the camera moves at first, `follow`,
-// `fixed`, or `none` where there is nothing to follow, LINK is the base, and NORMAL is x, y or z, the direction in which the
-// camera does not follow, or `none`.
+// in `kinematics.csv`: node camera.mjs FOLDER MOTION LINK NORMAL [RADIUS], where MOTION is how the camera moves at first,
+// `follow`, `fixed`, or `none` where there is nothing to follow, LINK is the base, NORMAL is x, y or z, the direction in
+// which the camera does not follow, or `none`, and RADIUS is that of a sphere, m, within which is all that the base carries,
+// seen from it: a camera that follows shows no more.
 
 import assert from "node:assert/strict";
 import { join, resolve } from "node:path";
@@ -11,7 +12,7 @@ import { kinematics } from "./kinematics.mjs";
 /** Positions are sums of a few numbers of some metres. */
 const TOLERANCE = 1e-9;
 
-const [motion, link, normal] = process.argv.slice(3);
+const [motion, link, normal, radius] = process.argv.slice(3);
 const folder = resolve(process.argv[2]);
 const table = await kinematics(join(folder, "kinematics.csv"));
 const base = (row) => table.point(row, "", link).map((value, axis) => ("xyz"[axis] === normal ? 0 : value));
@@ -30,6 +31,7 @@ await inBrowser(join(folder, "animation.html"), GL, { width: 1280, height: 800 }
     await drag(page, "#time", table.t[Math.round(part * (table.t.length - 1))]);
     await page.screenshot({ path: join(folder, `follow_${part}.png`) });
   }
+  if (radius) await showsNoMoreThan(Number(radius), page);
   await page.locator("#canvas").press("d");
   await page.locator("#canvas").press("+");
   await staysWithTheBase(page);
@@ -56,6 +58,17 @@ async function staysWithTheBase(page) {
     near(difference(camera, found[0].camera), way, `the camera at ${table.t[rows[k]]} s`);
     near(difference(target, found[0].target), way, `what it looks at, at ${table.t[rows[k]]} s`);
   }
+}
+
+async function showsNoMoreThan(radius, page) {
+  const { camera, target, aspect } = await page.evaluate(() => {
+    const { clientWidth, clientHeight } = document.querySelector("#canvas");
+    return { camera: redysim.camera(), target: redysim.target(), aspect: clientWidth / clientHeight };
+  });
+  // The picture is 30° high, and an eighth is left free around the sphere.
+  const most = (1.125 * radius) / Math.sin(Math.PI / 12) / Math.min(1, aspect);
+  const found = distance(camera, target);
+  assert.ok(found <= most, `the camera is ${found} m away, and would see all from ${most} m`);
 }
 
 async function staysWithEverything(page) {

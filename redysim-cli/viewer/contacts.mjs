@@ -1,8 +1,10 @@
-// Plays the page `animation.html` of a results folder in headless Chromium, and holds the arrows of the forces of the ground and
-// the footprints against `contacts.csv`: node contacts.mjs FOLDER NORMAL, where NORMAL is x, y or z, the outward normal of
-// ground through the origin, and the table `points.csv` of the folder has the places of the frames in contact.
+// Plays the page `animation.html` of a results folder in headless Chromium, and holds the arrows of the forces of the ground
+// against `contacts.csv` and the footprints against the events in `touch_downs.csv`, of which `run.toml` has the number: node
+// contacts.mjs FOLDER NORMAL, where NORMAL is x, y or z, the outward normal of ground through the origin, and the table
+// `points.csv` of the folder has the places of the frames in contact.
 
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
 import { drag, GL, inBrowser } from "./browser.mjs";
 import { table } from "./table.mjs";
@@ -16,7 +18,8 @@ const ALONG_Y = 0.99999;
 
 const folder = resolve(process.argv[2]);
 const normal = "xyz".indexOf(process.argv[3]);
-const [contacts, points] = await Promise.all(["contacts", "points"].map((name) => table(join(folder, `${name}.csv`))));
+const tables = ["contacts", "points", "touch_downs"].map((name) => table(join(folder, `${name}.csv`)));
+const [contacts, points, events] = await Promise.all(tables);
 const names = contacts.headers.filter((header) => header.startsWith("force_x ")).map((header) => header.slice(8, -4));
 const vector = ({ rows, column }, row, prefix, name, unit) =>
   ["x", "y", "z"].map((axis) => rows[row][column(`${prefix}${axis} ${name} [${unit}]`)]);
@@ -25,9 +28,14 @@ const point = (row, name) => vector(points, row, "", name, "m");
 const touching = (row, name) => contacts.rows[row][contacts.column(`touching ${name} [1]`)] === 1;
 const last = contacts.t.length - 1;
 const rows = [...Array(41).keys()].map((part) => Math.round((part / 40) * last));
-/** The rows in which a place touches down, also where it stands at the start. */
-const touchDowns = (name) =>
-  [...contacts.t.keys()].filter((row) => touching(row, name) && !(row > 0 && touching(row - 1, name)));
+/** When and where a contact stands at the start and touches down. */
+const touchDowns = (name, contact) => {
+  const standing = touching(0, name) ? [{ t: contacts.t[0], place: point(0, name) }] : [];
+  const own = events.rows.filter((row) => row[events.column("contact [1]")] === contact);
+  return [...standing, ...own.map(([t, , ...place]) => ({ t, place }))];
+};
+const [, count] = (await readFile(join(folder, "run.toml"), "utf8")).match(/^touch_downs = (\d+)$/m);
+assert.equal(events.rows.length, Number(count), "the record has every touch-down");
 
 await inBrowser(join(folder, "animation.html"), GL, { width: 1280, height: 800 }, async (page) => {
   const scales = [];
@@ -68,7 +76,7 @@ function arrowIsThatOfTheForce(arrow, row, name) {
 
 /** A footprint lies a little above the ground, so that it is seen. */
 function footprintsAreThoseOfTouchDowns(footprints, row) {
-  const begun = names.flatMap((name) => touchDowns(name).filter((begin) => begin <= row).map((begin) => point(begin, name)));
+  const begun = names.flatMap(touchDowns).filter(({ t }) => t <= contacts.t[row]).map(({ place }) => place);
   const what = `footprints at ${contacts.t[row]} s`;
   assert.equal(footprints.length, begun.length, what);
   begun.forEach((place, index) => {

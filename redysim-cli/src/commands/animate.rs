@@ -21,8 +21,8 @@ pub struct Arguments {
     /// The page [default: animation.html in the results' folder].
     #[arg(long, short, value_name = "FILE.html")]
     output: Option<PathBuf>,
-    /// Whether the camera follows a base that floats, or stands still; the page has a box to change it [default: follow
-    /// where the base travels farther than the mechanism reaches beside its way].
+    /// Whether the camera follows a moving base, on a free or planar joint to the ground, or stands still; the page has a
+    /// box to change it [default: follow where the base travels farther than the mechanism reaches beside its way].
     #[arg(long, value_name = "HOW")]
     camera: Option<Camera>,
     /// Overwrite a page that is there already.

@@ -58,7 +58,7 @@ impl VisitMut for InSpace<'_> {
 
 impl InSpace<'_> {
     fn expand(&self, of: Of, table: &mut dyn TableLike) {
-        for joint in self.layout.joints.iter().filter(|joint| joint.is_in_space()) {
+        for joint in self.layout.joints.iter().filter(|joint| joint.q.len() > 1) {
             let (components, range): (&[Component], Range<usize>) = match of {
                 Of::Coordinates => (&self.layout.coordinates, joint.q.clone()),
                 Of::Velocities => (&self.layout.velocities, joint.v.clone()),

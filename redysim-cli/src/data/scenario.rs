@@ -78,7 +78,7 @@ pub struct Initial {
     pub v: Option<Values>,
     /// Whether loops are closed from there; by default they are.
     pub assemble: Option<bool>,
-    /// The joints that stay where they are while loops are closed; by default the actuated ones.
+    /// The joints, or velocities of them, that stay where they are while loops are closed; by default what has an actuator.
     pub held: Option<Vec<String>>,
 }
 
@@ -106,8 +106,8 @@ pub struct Forward {
     pub step: f64,
     /// The integrator; by default `Ode45`.
     pub integrator: Option<Integrator>,
-    /// The joints that follow the trajectory whatever force it takes, while the others are free or driven; by default
-    /// none.
+    /// The joints, or velocities of them, that follow the trajectory whatever force it takes, while the others are free or
+    /// driven; by default none.
     pub prescribed: Option<Vec<String>>,
     /// What the actuators do; by default nothing.
     pub torque: Option<Torque>,

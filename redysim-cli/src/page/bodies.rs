@@ -260,7 +260,7 @@ fn point(model: &Model, side: &CutSide) -> [f64; 3] {
 }
 
 /// Number of a body among those that the page knows: the ground is 0.
-fn number(link: Option<usize>) -> usize {
+pub fn number(link: Option<usize>) -> usize {
     link.map_or(0, |index| index + 1)
 }
 

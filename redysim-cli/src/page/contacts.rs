@@ -5,9 +5,11 @@ use redysim_runtime::{Frames, GroundPlane};
 use serde::Serialize;
 
 use super::bodies::{self, Body};
+use super::footprints::{TouchDowns, footprint};
 use crate::data::{Contact, FrameNames, Results};
 use crate::failure::Failure;
 use crate::layout::Layout;
+use crate::number::counted;
 use crate::recorded::{Recorded, evenly};
 use crate::results::names;
 use crate::scenario::contact::{USUAL_NORMAL, USUAL_POINT};
@@ -25,6 +27,9 @@ pub struct Contacts {
     /// The instants of the forces, s.
     t: Vec<f64>,
     places: Vec<Place>,
+    /// How many touch-downs have no footprint, since no row shows them.
+    #[serde(skip)]
+    lost: u64,
 }
 
 /// A contact.
@@ -45,7 +50,8 @@ struct Place {
 /// If the run or its tables cannot be read.
 pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<Option<Contacts>, Failure> {
     let (Some(table), Some(motion)) = (recorded.table(names::CONTACTS)?, recorded.motion()?) else { return Ok(None) };
-    let scenario = Results::load(recorded.folder())?.scenario;
+    let Results { scenario, run, .. } = Results::load(recorded.folder())?;
+    let touch_downs = TouchDowns::of(recorded)?;
     let ground = scenario.ground.unwrap_or_default();
     let (point, normal) = (ground.point.unwrap_or(USUAL_POINT), ground.normal.unwrap_or(USUAL_NORMAL));
     let plane = GroundPlane::new(point, normal).map_err(Failure::input)?;
@@ -57,31 +63,44 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<Option<
     let rows = evenly(table.t.len(), NUMBERS / (3 * model.frames.len()).max(1));
     let of_frames: Vec<_> = bodies::frames(model).into_iter().skip(model.links.len()).collect();
     let mut places = Vec::new();
-    for (name, frame) in scenario.contact.iter().flatten().flat_map(named) {
+    for (contact, (name, frame)) in scenario.contact.iter().flatten().flat_map(named).enumerate() {
         let Some(number) = model.frames.iter().position(|of| of.name == frame) else { continue };
         let column = |symbol: &str| table.of(symbol).find(|column| column.name == name).map(|column| &column.values);
         let (Some(x), Some(y), Some(z)) = (column("force_x"), column("force_y"), column("force_z")) else { continue };
         let Some(touching) = column("touching") else { continue };
-        let begins = |row: &usize| touching[*row] > 0.5 && (*row == 0 || touching[row - 1] < 0.5);
-        let footprint = |row: usize| {
-            let origin = origins.get(row)?.get(number)?;
-            let height = plane.height(origin);
-            let [x, y, z] = [0, 1, 2].map(|axis| origin[axis] - height * plane.normal()[axis]);
-            Some([table.t[row], x, y, z])
-        };
+        // At the start it may stand there. Without a record of touch-downs it begins where a row has it and the last one
+        // does not.
+        let begins =
+            |row: &usize| touching[*row] > 0.5 && (*row == 0 || touch_downs.is_none() && touching[row - 1] < 0.5);
+        let in_row = |row: usize| Some((table.t[row], *origins.get(row)?.get(number)?));
+        let by_rows = (0..table.t.len()).filter(begins).filter_map(in_row);
+        let in_record = touch_downs.iter().flat_map(|touch_downs| touch_downs.of_contact(contact));
         let (body, position) = of_frames[number].place();
         places.push(Place {
             body,
             position,
             forces: rows.iter().map(|&row| [x[row] as f32, y[row] as f32, z[row] as f32]).collect(),
-            footprints: (0..table.t.len()).filter(begins).filter_map(footprint).collect(),
+            footprints: by_rows.chain(in_record).map(|print| footprint(&plane, print)).collect(),
         });
     }
     let t = rows.iter().map(|&row| table.t[row]).collect();
-    Ok(Some(Contacts { point, normal: plane.normal(), t, places }))
+    let after_start =
+        places.iter().flat_map(|place| &place.footprints).filter(|[t, ..]| *t > table.t[0]).count() as u64;
+    let without_record = run.touch_downs.filter(|_| touch_downs.is_none());
+    let lost = without_record.map_or(0, |count| count.saturating_sub(after_start));
+    Ok(Some(Contacts { point, normal: plane.normal(), t, places, lost }))
 }
 
 impl Contacts {
+    /// That footprints are missing.
+    pub fn note(&self) -> Option<String> {
+        let note = |lost| {
+            let touch_downs = counted(lost, "touch-down");
+            format!("{touch_downs} between instants without a footprint: run the scenario again, which records them")
+        };
+        (self.lost > 0).then(|| note(self.lost))
+    }
+
     /// Draws each body to its contacts.
     pub fn extend(&self, bodies: &mut [Body<'_>]) {
         for Place { body, position, .. } in &self.places {

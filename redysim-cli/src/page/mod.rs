@@ -4,6 +4,7 @@
 mod bodies;
 mod camera;
 mod contacts;
+mod footprints;
 mod meshes;
 mod motion;
 mod sliders;
@@ -58,10 +59,12 @@ impl Page {
         let (motion, notes) = motion::of(recorded, &model, &layout)?;
         let charts = charts.iter().map(Curves::of).collect();
         let names = layout.coordinates.iter().map(|coordinate| coordinate.name.clone()).collect();
-        let mut data = Data { charts, camera, ..Data::of(&model, &layout, names, Moved::Motion(motion), notes) };
+        let base = camera::moving_base(&model).map(|link| bodies::number(Some(link)));
+        let mut data = Data { charts, camera, base, ..Data::of(&model, &layout, names, Moved::Motion(motion), notes) };
         data.contacts = contacts::of(recorded, &model, &layout)?;
         if let Some(contacts) = &data.contacts {
             contacts.extend(&mut data.bodies);
+            data.notes.extend(contacts.note());
         }
         data.page(urdf.as_deref())
     }
@@ -120,6 +123,8 @@ struct Data<'a> {
     contacts: Option<Contacts>,
     /// Of a run, if it is given.
     camera: Option<Camera>,
+    /// The body that the camera can follow in a run.
+    base: Option<usize>,
     #[serde(flatten)]
     drawn: Meshes,
     /// The names of the coordinates.
@@ -154,6 +159,7 @@ impl<'a> Data<'a> {
             charts: Vec::new(),
             contacts: None,
             camera: None,
+            base: None,
             drawn: Meshes::default(),
             joints: names,
         }

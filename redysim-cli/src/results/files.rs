@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::record::Sink;
 use super::tables::{Format, Quantities, Row};
-use super::{Arguments, Ended, Folder, Summary, leftover, run_file};
+use super::{Arguments, Ended, Folder, Summary, leftover, names, run_file, touch_down};
 use crate::failure::Failure;
 use crate::output::{to_stderr, to_stdout};
 use crate::scenario::{Dynamics, Scenario};
@@ -15,6 +15,7 @@ use crate::table::write_row;
 pub struct Files {
     folder: Folder,
     tables: Vec<(Quantities, csv::Writer<File>)>,
+    format: Format,
     rows: usize,
 }
 
@@ -51,7 +52,7 @@ impl Files {
             Ok((table, writer))
         });
         let tables = begun.collect::<Result<_, Failure>>()?;
-        Ok(Files { folder, tables, rows: 0 })
+        Ok(Files { folder, tables, format: arguments.format, rows: 0 })
     }
 
     /// Completes the folder, reports how the run went, and fails if it did not come to its end.
@@ -62,6 +63,11 @@ impl Files {
         for (table, writer) in self.tables {
             let file = writer.into_inner().map_err(|error| unwritten(&table, error.into_error()))?;
             file.sync_all().map_err(|error| unwritten(&table, error))?;
+        }
+        // A table has rows, and ReDySim has no such file.
+        let touch_downs = summary.outcome.contacts.as_ref().map(|(_, touch_downs)| touch_downs);
+        if let Some(touch_downs) = touch_downs.filter(|list| self.format == Format::Csv && !list.is_empty()) {
+            self.folder.write(&names::csv(names::TOUCH_DOWNS), &touch_down::to_csv(touch_downs)?)?;
         }
         run_file::write(&self.folder, scenario, &summary)?;
         let complete = matches!(summary.outcome.ended, Ended::Complete);

@@ -12,6 +12,7 @@ mod run;
 mod run_file;
 mod summary;
 mod tables;
+pub mod touch_down;
 
 use std::path::PathBuf;
 
@@ -23,6 +24,7 @@ pub use record::{GroundSample, Record, Sample, Sink};
 pub use run::{Ending, Run};
 pub use summary::{Ended, Outcome, Summary};
 pub use tables::{Format, Quantities, Row};
+pub use touch_down::TouchDown;
 
 /// Where results go, and how.
 #[derive(clap::Args)]

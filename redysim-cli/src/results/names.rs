@@ -24,9 +24,11 @@ pub const ENVAR: &str = "envar";
 pub const KINEMATICS: &str = "kinematics";
 pub const CONTACTS: &str = "contacts";
 pub const MOMENTUM: &str = "momentum";
+pub const TOUCH_DOWNS: &str = "touch_downs";
 
 /// All tables that there may be.
-pub const TABLES: [&str; 10] = [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS, CONTACTS, MOMENTUM];
+pub const TABLES: [&str; 11] =
+    [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS, CONTACTS, MOMENTUM, TOUCH_DOWNS];
 
 /// The file of a table in CSV.
 pub fn csv(table: &str) -> String {

@@ -19,18 +19,18 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
     folder.write(MODEL, scenario.model_text.as_bytes())?;
     document["model"] = value(MODEL);
     set_default(document.as_item_mut(), "name", value(&scenario.name));
-    let name = |joint: &usize| scenario.layout.joints[*joint].name.as_str();
+    let names = |velocities: &[usize]| value(scenario.layout.names(velocities).into_iter().collect::<Array>());
     let initial = &mut document["initial"];
     set_default(initial, "q", numbers(&scenario.initial.q));
     set_default(initial, "v", numbers(&scenario.initial.v));
     if scenario.loops() {
         set_default(initial, "assemble", value(scenario.initial.assemble));
-        set_default(initial, "held", value(scenario.initial.held.iter().map(name).collect::<Array>()));
+        set_default(initial, "held", names(&scenario.initial.held));
     }
     if let Some(trajectory) = &scenario.trajectory {
         let table = &mut document["trajectory"];
         shorthand::TRAJECTORY.expand(table);
-        set_default(table, "joints", value(trajectory.joints.iter().map(name).collect::<Array>()));
+        set_default(table, "joints", names(&trajectory.velocities));
         if let Some(read) = &trajectory.table {
             folder.write(&csv(TRAJECTORY), read.text.as_bytes())?;
             table["file"] = value(csv(TRAJECTORY));
@@ -49,8 +49,8 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
             folder.write(&csv(TORQUE), forces.table.text.as_bytes())?;
             table["torque"]["file"] = value(csv(TORQUE));
         }
-        if let Some(joints) = forward.torque.joints() {
-            set_default(&mut table["torque"], "joints", value(joints.iter().map(name).collect::<Array>()));
+        if let Some(driven) = forward.torque.driven() {
+            set_default(&mut table["torque"], "joints", names(driven));
         }
         match forward.torque.unlimited() {
             Torque::Pid { tracking_rate, .. } => {
@@ -136,7 +136,7 @@ fn how_it_went(summary: &Summary, urdf: Option<String>) -> Run {
         corrections: counted(|statistics| statistics.corrections),
         jacobians: counted(|statistics| statistics.jacobians),
         decompositions: counted(|statistics| statistics.decompositions),
-        touch_downs: contacts.map(|(_, touch_downs)| touch_downs),
+        touch_downs: contacts.as_ref().map(|(_, touch_downs)| touch_downs.len() as u64),
         energy_drift: balance.drift,
         energy_exchanged: balance.exchanged,
         linear_momentum_drift: momentum.map(|drift| drift.linear),

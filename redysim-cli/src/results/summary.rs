@@ -4,8 +4,8 @@ use std::fmt;
 
 use redysim_runtime::Statistics;
 
-use super::Balance;
 use super::momentum::MomentumDrift;
+use super::{Balance, TouchDown};
 use crate::failure::Failure;
 use crate::number::{all_digits, counted, size};
 use crate::scenario::Dynamics;
@@ -21,8 +21,8 @@ pub struct Outcome {
     pub statistics: Option<Statistics>,
     /// The largest position residual of a loop, m (or a sine), if there are loops.
     pub position_residual: Option<f64>,
-    /// How many contacts there are, and how often one touched down, if there are contacts.
-    pub contacts: Option<(usize, u64)>,
+    /// How many contacts there are, and their touch-downs, if there are contacts.
+    pub contacts: Option<(usize, Vec<TouchDown>)>,
 }
 
 /// How a run ended.
@@ -66,7 +66,7 @@ impl fmt::Display for Summary {
             write!(f, ", {rejected} rejected, {}", counted(*evaluations, "evaluation"))?;
         }
         if let Some((contacts, touch_downs)) = contacts {
-            write!(f, "\n  {}, {}", counted(*contacts, "contact"), counted(*touch_downs, "touch-down"))?;
+            write!(f, "\n  {}, {}", counted(*contacts, "contact"), counted(touch_downs.len(), "touch-down"))?;
         }
         write!(f, "\n  {:.3} s of computing and writing", self.seconds)?;
         let Balance { drift, exchanged, .. } = self.balance;

@@ -18,13 +18,12 @@ pub struct Forces {
 }
 
 impl Forces {
-    /// Those of the joints `chosen`.
-    pub fn of(table: InputTable, layout: &Layout, chosen: &[usize]) -> Result<Forces, Failure> {
-        let velocities = layout.velocities_of(chosen);
-        let rows = table.of_components("tau", &layout.velocities, &velocities, None)?;
+    /// Those along `velocities`.
+    pub fn of(table: InputTable, layout: &Layout, velocities: &[usize]) -> Result<Forces, Failure> {
+        let rows = table.of_components("tau", &layout.velocities, velocities, None)?;
         let rows =
             rows.ok_or_else(|| table.fault("it has no forces", "add a column `tau <joint> [N m]` for each joint"))?;
-        let rows = rows.iter().map(|row| spread(&velocities, row, &layout.velocities)).collect();
+        let rows = rows.iter().map(|row| spread(velocities, row, &layout.velocities)).collect();
         Ok(Forces { table, rows })
     }
 

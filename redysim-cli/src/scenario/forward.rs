@@ -36,7 +36,7 @@ impl Forward {
             let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
             let prescribed = PrescribedJoints::read(&mut reader, subject, trajectory);
             let followers =
-                prescribed.as_ref().and_then(Option::as_ref).map_or(&[][..], |prescribed| &prescribed.joints);
+                prescribed.as_ref().and_then(Option::as_ref).map_or(&[][..], |prescribed| &prescribed.velocities);
             let torque = Torque::read(&mut reader, subject, trajectory, followers);
             let stabilisation = stabilisation(&mut reader, subject);
             let unlimited = torque.as_ref().map(Torque::unlimited);

@@ -1,10 +1,14 @@
-//! The coordinates of joints that have several: a position, and an orientation as a quaternion, by roll, pitch and yaw,
+//! The coordinates of joints with an orientation: a position, and the orientation as a quaternion, by roll, pitch and yaw,
 //! or by an axis and an angle.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use redysim_model::joint::EulerSequence;
+use redysim_model::rotation::roll_pitch_yaw;
+use redysim_model::spatial::Mat3;
 use redysim_toml::{Field, Key, KeyPath, Message, Reader, Value};
 
 use super::keys;
+use crate::euler_angles::euler_angles;
 use crate::layout::{Joint, Layout};
 
 /// How far the square of the length of a quaternion may be from 1 to be left as it is: a quaternion that was normalised
@@ -34,25 +38,47 @@ impl Orientation {
             }
         }
     }
+
+    /// As Euler angles. Those of roll, pitch and yaw are exact at quarter turns.
+    fn euler_angles(self, sequence: EulerSequence) -> [f64; 3] {
+        let rotation = match self {
+            Orientation::Rpy(rpy) => roll_pitch_yaw(rpy),
+            _ => {
+                let quaternion = UnitQuaternion::new_normalize(Quaternion::from(self.quaternion()));
+                let rotation = quaternion.to_rotation_matrix();
+                Mat3::from_fn(|i, j| rotation[(i, j)])
+            }
+        };
+        euler_angles(&rotation, sequence)
+    }
 }
 
 /// The coordinates of a joint with the orientation, at the position if the joint has one; the default of each part is neutral.
 pub fn position_of(joint: &Joint, xyz: Option<[f64; 3]>, orientation: Option<Orientation>) -> Vec<f64> {
-    let orientation = orientation.map_or([0.0, 0.0, 0.0, 1.0], Orientation::quaternion);
+    let orientation = match joint.euler_sequence() {
+        Some(sequence) => orientation.map_or([0.0; 3], |given| given.euler_angles(sequence)).to_vec(),
+        None => orientation.map_or([0.0, 0.0, 0.0, 1.0], Orientation::quaternion).to_vec(),
+    };
     let position = xyz.unwrap_or_default();
-    position[..joint.q.len() - 4].iter().chain(&orientation).copied().collect()
+    position[..joint.q.len() - orientation.len()].iter().chain(&orientation).copied().collect()
 }
 
 /// Reads the table of a joint's position.
 pub fn coordinates(reader: &mut Reader<'_, '_>, path: &KeyPath, value: &Value<'_>, joint: &Joint) -> Option<Vec<f64>> {
-    let keys = if joint.q.len() > 4 { &keys::FREE_POSITION } else { &keys::SPHERICAL_POSITION };
+    let keys = if joint.v.len() > 3 { &keys::FREE_POSITION } else { &keys::SPHERICAL_POSITION };
     let mut reader = reader.table_at(path, value, keys)?;
     let xyz = reader.vector(&keys::JOINT_XYZ);
     let quaternion = reader.field(&keys::QUATERNION, |reader, path, value| {
         let array = reader.array(path, value, "an array of 4 numbers: x, y, z, w")?;
         let numbers = reader.elements(path, array, |reader, path, value| reader.parse_number(path, value))?;
         let found = numbers.len();
-        numbers.try_into().ok().or_else(|| reader.wrong_length(path, value, "4 numbers: x, y, z, w", found))
+        let Ok(quaternion) = <[f64; 4]>::try_from(numbers) else {
+            return reader.wrong_length(path, value, "4 numbers: x, y, z, w", found);
+        };
+        match square(&quaternion) == 0.0 {
+            true => zero_quaternion(reader, path, value, joint),
+            false => Some(quaternion),
+        }
     });
     let rpy = reader.angles(&keys::JOINT_RPY);
     let axis = reader.vector(&keys::AXIS);
@@ -107,20 +133,9 @@ pub fn normalise(
     for joint in layout.joints.iter().filter(|joint| joint.is_in_space()) {
         let Some(at) = of.iter().position(|&index| index == joint.orientation().start) else { continue };
         let quaternion = &mut values[at..at + 4];
-        let square: f64 = quaternion.iter().map(|component| component * component).sum();
+        let square = square(quaternion);
         if square == 0.0 {
-            let name = &joint.name;
-            let title = format!(
-                "{}: `{path}` gives the joint `{name}` the quaternion [0, 0, 0, 0], which is invalid",
-                reader.item()
-            );
-            let help = format!(
-                "a quaternion is x, y, z, w, and 0, 0, 0, 1 by default: give one that is not zero, or give the orientation by angles, as in {} = \
-                 {{ {name} = {{ {} }} }}",
-                keys::Q.name,
-                keys::JOINT_RPY.example()
-            );
-            return reader.error(value, Message { title, label: "a zero quaternion".into(), help });
+            return zero_quaternion(reader, path, value, joint);
         }
         if (square - 1.0).abs() > ROUNDING {
             let length = square.sqrt();
@@ -128,4 +143,23 @@ pub fn normalise(
         }
     }
     Some(())
+}
+
+/// The square of the length.
+fn square(quaternion: &[f64]) -> f64 {
+    quaternion.iter().map(|component| component * component).sum()
+}
+
+/// Reports a quaternion of length zero. Always `None`.
+fn zero_quaternion<T>(reader: &mut Reader<'_, '_>, path: &KeyPath, value: &Value<'_>, joint: &Joint) -> Option<T> {
+    let name = &joint.name;
+    let title =
+        format!("{}: `{path}` gives the joint `{name}` the quaternion [0, 0, 0, 0], which is invalid", reader.item());
+    let help = format!(
+        "a quaternion is x, y, z, w, and 0, 0, 0, 1 by default: give one that is not zero, or give the orientation by angles, \
+         as in {} = {{ {name} = {{ {} }} }}",
+        keys::Q.name,
+        keys::JOINT_RPY.example()
+    );
+    reader.error(value, Message { title, label: "a zero quaternion".into(), help })
 }

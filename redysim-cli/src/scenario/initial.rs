@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use redysim_toml::{Reader, Spanned};
 
-use super::joints::{Quantity, some, values};
+use super::chosen::chosen;
+use super::joints::{Quantity, values};
 use super::keys;
 use super::subject::{Subject, given, neutral};
 
@@ -16,9 +17,9 @@ pub struct Initial {
     pub place_of_v: Range<usize>,
     /// Whether closed loops are closed from there.
     pub assemble: bool,
-    /// The joints that stay where they are while loops are closed.
+    /// The velocities along which nothing moves while loops are closed.
     pub held: Vec<usize>,
-    /// Whether the scenario names these joints.
+    /// Whether the scenario names these.
     names_held: bool,
 }
 
@@ -34,7 +35,7 @@ impl Initial {
             let (v, place_of_v) = (v.value_or(rest().1), v.spanned().map_or(0..0, Spanned::span));
             let assemble = reader.flag(&keys::ASSEMBLE);
             subject.expect_loops(&mut reader, "initial.assemble", &assemble);
-            let held = some(&mut reader, &keys::HELD, &layout.joints);
+            let held = chosen(&mut reader, &keys::HELD, layout);
             subject.expect_loops(&mut reader, "initial.held", &held);
             let names_held = !held.is_missing();
             let (assemble, held) = (assemble.value_or(true), held.value_or(actuated.clone()));
@@ -51,12 +52,13 @@ impl Initial {
 }
 
 impl Initial {
-    /// Holds `joints` as well, or in the place of the actuated ones, which are only the default.
-    pub fn hold(&mut self, joints: &[usize]) {
+    /// Holds `velocities` as well, or in the place of the actuated ones, which are only the default.
+    pub fn hold(&mut self, velocities: &[usize]) {
         if !self.names_held {
             self.held.clear();
         }
-        self.held.extend(joints.iter().filter(|joint| !self.held.contains(joint)).copied().collect::<Vec<_>>());
+        let new: Vec<usize> = velocities.iter().copied().filter(|velocity| !self.held.contains(velocity)).collect();
+        self.held.extend(new);
     }
 }
 

@@ -1,10 +1,11 @@
-//! Values for the coordinates or velocities of joints, and lists of joints.
+//! Values for the coordinates or velocities of joints.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
 use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader, Spanned, Value};
 
+use super::chosen::{Wanted, not_a};
 use super::in_space;
 use super::resolution::resolved;
 use crate::layout::{Component, Joint, Layout};
@@ -30,7 +31,12 @@ impl Quantity {
         matches!(self, Quantity::Gain | Quantity::Limit | Quantity::TrackingRate)
     }
 
-    /// What the values are for: coordinates, or velocities.
+    /// What the values are for.
+    fn wanted(self) -> Wanted {
+        if self == Quantity::Coordinate { Wanted::Coordinate } else { Wanted::Velocity }
+    }
+
+    /// All that the values may be for: coordinates, or velocities.
     fn components(self, layout: &Layout) -> &[Component] {
         if self == Quantity::Coordinate { &layout.coordinates } else { &layout.velocities }
     }
@@ -43,7 +49,7 @@ impl Quantity {
 
 /// One value for each of `of`, indices of coordinates or velocities: an array in their order, or a table by their
 /// names, in which missing coordinates are those of the neutral position, missing limits infinite, and other missing
-/// values zero. In a table, all components of a joint that has several may stand under its name. Quaternions have
+/// values zero. In a table, all components of a joint that has several may stand under its name, in their own order. Quaternions have
 /// length 1.
 pub fn values(
     reader: &mut Reader<'_, '_>,
@@ -55,8 +61,8 @@ pub fn values(
     reader.field(key, |reader, path, value| list(reader, path, value, quantity, layout, of))
 }
 
-/// Limits of forces, one for each velocity of the joints `of`, which are above zero: as [`values`] reads them, or
-/// "range", which stands for the `force` of each joint's range, as `range_force` has it.
+/// Limits of forces, one for each of the velocities `of`, which are above zero: as [`values`] reads them, or "range", which
+/// stands for the `force` of the range of each, as `range_force` has it.
 pub fn limits(
     reader: &mut Reader<'_, '_>,
     key: &Key,
@@ -66,26 +72,24 @@ pub fn limits(
 ) -> Field<Vec<f64>> {
     reader.field(key, |reader, path, value| {
         let DeValue::String(name) = value.get_ref() else {
-            return list(reader, path, value, Quantity::Limit, layout, &layout.velocities_of(of));
+            return list(reader, path, value, Quantity::Limit, layout, of);
         };
         reader.choose(path, value, name, &[("range", ())])?;
         let mut limits = Vec::new();
-        for &joint in of {
-            let Joint { name, v, .. } = &layout.joints[joint];
-            let Some(force) = range_force(joint) else {
+        for &velocity in of {
+            let Some(force) = range_force(velocity) else {
+                let whose = layout.first_of(&[velocity]).unwrap_or_default();
                 let message = Message {
-                    title: format!(
-                        "{}: `{path}` is \"range\", and the joint `{name}` has no `range.force`",
-                        reader.item()
-                    ),
+                    title: format!("{}: `{path}` is \"range\", and {whose} has no `range.force`", reader.item()),
                     label: "not known for every joint".into(),
                     help: format!(
-                        "give `{name}` a `force` in its `range` in the model, or write the limits here, N m or N"
+                        "give `{}` a `force` in its `range` in the model, or write the limits here, N m or N",
+                        layout.joint_of(velocity).name
                     ),
                 };
                 return reader.error(value, message);
             };
-            limits.extend(v.clone().map(|_| force));
+            limits.push(force);
         }
         Some(limits)
     })
@@ -100,56 +104,42 @@ pub fn points(reader: &mut Reader<'_, '_>, key: &Key, layout: &Layout, of: &[usi
     })
 }
 
-/// Some of the joints, by their names.
-pub fn some(reader: &mut Reader<'_, '_>, key: &Key, joints: &[Joint]) -> Field<Vec<usize>> {
-    reader.field(key, |reader, path, value| {
-        let array = reader.array(path, value, "an array of names of joints")?;
-        let mut found = Vec::new();
-        for (k, value) in array.iter().enumerate() {
-            let path = path.element(k);
-            let DeValue::String(name) = value.get_ref() else {
-                return reader.wrong_type(&path, value, "the name of a joint");
-            };
-            let joint = index(reader, value.span(), name, joints.iter().map(|joint| joint.name.as_str()))?;
-            if found.contains(&joint) {
-                let message = Message {
-                    title: format!("{}: `{path}` names the joint `{name}` again", reader.item()),
-                    label: "named before".into(),
-                    help: "name each joint once".into(),
-                };
-                return reader.error(value, message);
-            }
-            found.push(joint);
-        }
-        if found.is_empty() {
-            let message = Message {
-                title: format!("{}: `{path}` names no joint", reader.item()),
-                label: "empty".into(),
-                help: "name at least one, or leave the key out".into(),
-            };
-            return reader.error(value, message);
-        }
-        Some(found)
-    })
-}
-
-/// The number of a joint, or of one of its components, whose name stands at `place`.
-fn index<'n>(
+/// The components that the name at `place` stands for, by their numbers: one, or all of a joint that has several.
+fn named<'l>(
     reader: &mut Reader<'_, '_>,
     place: Range<usize>,
+    path: &KeyPath,
     name: &str,
-    names: impl Iterator<Item = &'n str>,
-) -> Option<usize> {
-    let named: Vec<_> = names.enumerate().map(|(index, name)| (name, index)).collect();
-    reader.lookup(place, "joint", name, &named)
+    (quantity, layout): (Quantity, &'l Layout),
+) -> Option<(Range<usize>, Option<&'l Joint>)> {
+    let components = quantity.components(layout).iter().enumerate();
+    let components = components.map(|(index, component)| (component.name.as_str(), (index..index + 1, None)));
+    let several = layout.joints.iter().filter(|joint| joint.q.len() > 1);
+    let joints = several.map(|joint| (joint.name.as_str(), (quantity.of_joint(joint), Some(joint))));
+    let names: Vec<_> = components.chain(joints).collect();
+    let found = names.iter().position(|(other, _)| *other == name);
+    let others = if quantity == Quantity::Coordinate { &layout.velocities } else { &layout.coordinates };
+    if found.is_none() && others.iter().any(|other| other.name == name) {
+        return not_a(quantity.wanted(), reader, place, path, name, layout);
+    }
+    let indices: Vec<_> = names.iter().enumerate().map(|(index, (name, _))| (*name, index)).collect();
+    let index = reader.lookup(place, "joint", name, &indices)?;
+    Some(names[index].1.clone())
 }
 
-/// Reports a joint that the values are not for. Always `None`.
-fn foreign<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &KeyPath, name: &str) -> Option<T> {
+/// Reports a joint or a component that the values are not for. Always `None`.
+fn foreign<T>(
+    reader: &mut Reader<'_, '_>,
+    place: Range<usize>,
+    path: &KeyPath,
+    name: &str,
+    layout: &Layout,
+) -> Option<T> {
+    let what = if layout.joints.iter().any(|joint| joint.name == name) { "the joint " } else { "" };
     reader.error_at(
         place,
         Message {
-            title: format!("{}: `{path}` has nothing to do with the joint `{name}`", reader.item()),
+            title: format!("{}: `{path}` has nothing to do with {what}`{name}`", reader.item()),
             label: "not one of its joints".into(),
             help: "leave it out, or name it among the `joints` here".into(),
         },
@@ -209,30 +199,25 @@ fn unchecked(
                 _ => components[index].neutral,
             };
             let mut values: Vec<f64> = of.iter().map(|&index| missing(index)).collect();
-            let several: Vec<&Joint> = layout.joints.iter().filter(|joint| joint.q.len() > 1).collect();
-            let names = components.iter().map(|component| component.name.as_str());
-            let names: Vec<&str> = names.chain(several.iter().map(|joint| joint.name.as_str())).collect();
             let mut given = vec![false; of.len()];
             let mut read = |(name, value): (&Spanned<Cow<'_, str>>, &Value<'_>)| {
-                let index = index(reader, name.span(), name.get_ref(), names.iter().copied())?;
-                let whole = index.checked_sub(components.len()).map(|joint| several[joint]);
-                let first = whole.map_or(index, |joint| quantity.of_joint(joint).start);
-                let Some(at) = of.iter().position(|&other| other == first) else {
-                    return foreign(reader, name.span(), path, name.get_ref());
-                };
-                let own = &mut given[at..at + whole.map_or(1, |joint| quantity.of_joint(joint).len())];
-                if own.contains(&true) {
+                let (range, whole) = named(reader, name.span(), path, name.get_ref(), (quantity, layout))?;
+                let place = |index: usize| of.iter().position(|&other| other == index);
+                let own: Vec<usize> = range.clone().filter_map(place).collect();
+                if own.is_empty() {
+                    return foreign(reader, name.span(), path, name.get_ref(), layout);
+                }
+                if own.iter().any(|&at| given[at]) {
                     return again(reader, name.span(), path, name.get_ref());
                 }
-                own.fill(true);
+                own.iter().for_each(|&at| given[at] = true);
                 let path = path.entry(name.get_ref());
-                match whole {
-                    None => values[at] = one(reader, &path, value, quantity, &components[index])?,
-                    Some(joint) => {
-                        let of_joint = of_joint(reader, &path, value, quantity, layout, joint)?;
-                        values[at..at + of_joint.len()].copy_from_slice(&of_joint);
-                    }
-                }
+                let components_of_it: Vec<usize> = own.iter().map(|&at| of[at]).collect();
+                let found = match whole {
+                    None => vec![one(reader, &path, value, quantity, &components[range.start])?],
+                    Some(joint) => of_joint(reader, &path, value, quantity, (layout, joint), &components_of_it)?,
+                };
+                own.iter().zip(found).for_each(|(&at, found)| values[at] = found);
                 Some(())
             };
             // Every joint is read, so that each error among them is reported.
@@ -249,22 +234,35 @@ fn unchecked(
     }
 }
 
-/// The values of a joint that has several, under its name: its coordinates as a table, or an array of all.
+/// The values of those components `of` of a joint that has several, under its name: an array or the table of a position, of
+/// all of them, or one number for all.
 fn of_joint(
     reader: &mut Reader<'_, '_>,
     path: &KeyPath,
     value: &Value<'_>,
     quantity: Quantity,
-    layout: &Layout,
-    joint: &Joint,
+    (layout, joint): (&Layout, &Joint),
+    of: &[usize],
 ) -> Option<Vec<f64>> {
-    match value.get_ref() {
-        DeValue::Table(_) if quantity == Quantity::Coordinate && joint.is_in_space() => {
-            in_space::coordinates(reader, path, value, joint)
+    let is_position = quantity == Quantity::Coordinate && joint.has_orientation();
+    let is_part = of.len() < quantity.of_joint(joint).len();
+    let title = match value.get_ref() {
+        DeValue::Table(_) | DeValue::Array(_) if is_part => "stands for all of the joint, but is for",
+        DeValue::Table(_) if is_position => return in_space::coordinates(reader, path, value, joint),
+        DeValue::Table(_) => "must be an array, not a table, with a value for each of",
+        _ => return unchecked(reader, path, value, quantity, layout, of),
+    };
+    let names: Vec<&str> = of.iter().map(|&index| quantity.components(layout)[index].name.as_str()).collect();
+    let title = format!("{}: `{path}` {title} {}", reader.item(), names.join(", "));
+    let (title, label, help) = match is_part {
+        true => (title + " only", "more than that", format!("give it by its own name: \"{}\" = 0", names[0])),
+        false => {
+            let zeros = vec!["0"; names.len()].join(", ");
+            let help = format!("write for example `{} = [{zeros}]`, or by one name `\"{}\" = 0`", joint.name, names[0]);
+            (title, "not an array", help)
         }
-        DeValue::Table(_) => reader.wrong_type(path, value, "an array with a value for each component of the joint"),
-        _ => unchecked(reader, path, value, quantity, layout, &quantity.of_joint(joint).collect::<Vec<_>>()),
-    }
+    };
+    reader.error(value, Message { title, label: label.into(), help })
 }
 
 fn one(

@@ -23,8 +23,8 @@ pub const Q: Key = Key::of_table(
     "q",
     "[0, \"60 deg\"]",
     "rad or m, or an angle with a unit; or by name: q = { joint2 = \"60 deg\" }; a spherical joint has the coordinates \
-     qx, qy, qz, qw (a quaternion of any length), a free one x, y, z before them, and by name a table: \
-     q = { base = { xyz = [0, 0, 1], rpy = [0, \"10 deg\", 0] } }",
+     qx, qy, qz, qw (a quaternion of any length) or the Euler angles phi, theta, psi, a free one x, y, z before them, and by \
+     name a table: q = { base = { xyz = [0, 0, 1], rpy = [0, \"10 deg\", 0] } }",
     &[&FREE_POSITION, &SPHERICAL_POSITION],
 )
 .with_default("the neutral position");
@@ -50,8 +50,9 @@ pub const ANGLE: Key =
     Key::new("angle", "\"90 deg\"", "about `axis`; without a unit in rad").with_default("required with `axis`");
 pub const ASSEMBLE: Key =
     Key::new("assemble", "false", "start as given, though loops may not be closed").with_default("true");
-pub const HELD: Key = Key::new("held", "[\"crank\"]", "what stays where it is while loops are closed")
-    .with_default("the actuated joints, or those of `forward.prescribed`, which always stay");
+pub const HELD: Key =
+    Key::new("held", "[\"crank\"]", "what stays where it is while loops are closed: joints, or velocities")
+        .with_default("what has an actuator, or what `forward.prescribed` names, which always stays");
 
 pub const TRAJECTORY: Key = Key::of_table(
     "trajectory",
@@ -66,8 +67,9 @@ pub const VIA_POINTS: Keys = Keys::new("A motion through points", &[MOTION_KIND,
 pub const MOTION_TABLE: Keys = Keys::new("A motion from a table", &[MOTION_KIND, PRESCRIBED, MOTION_FILE, THROUGH]);
 pub const MOTION_KIND: Key =
     Key::new("kind", "\"cycloid\"", "or constant-speed, minimum-jerk, cubic, csv").with_default("`cycloid`");
-pub const PRESCRIBED: Key = Key::new("joints", "[\"crank\"]", "which are prescribed")
-    .with_default("all joints; of closed loops the actuated ones");
+pub const PRESCRIBED: Key =
+    Key::new("joints", "[\"crank\"]", "which are prescribed; or single velocities of them: [\"swivel.phi\"]")
+        .with_default("all joints; of closed loops what has an actuator");
 pub const FROM: Key = Key::new("from", "[0, 0]", "rad or m").with_default("required");
 pub const TO: Key = Key::new("to", "[\"60 deg\", 1]", "rad or m").with_default("required");
 pub const DURATION: Key = Key::new("duration", "2.0", "s").with_default("required");
@@ -95,7 +97,7 @@ const FORWARD_KEYS: Keys = Keys::new("`forward`", &[START, END, STEP, INTEGRATOR
 pub const FOLLOWING: Key = Key::new(
     "prescribed",
     "[\"joint1\"]",
-    "joints that follow the trajectory whatever force it takes, while the others are free or driven",
+    "joints, or velocities of them, that follow the trajectory whatever force it takes, while the others are free or driven",
 )
 .with_default("none");
 
@@ -159,8 +161,9 @@ pub const FORCE_TABLE: Keys = Keys::new("The law `csv`", &[LAW, DRIVEN, FORCE_FI
 pub const LAW: Key =
     Key::new("law", "\"free\"", "or p, pd, pid, pd-gravity, tracking-pd, computed-torque, impedance, csv")
         .with_default("`free`");
-pub const DRIVEN: Key = Key::new("joints", "[\"crank\"]", "which are driven")
-    .with_default("the actuated joints; of `tracking-pd` those that the trajectory prescribes");
+pub const DRIVEN: Key =
+    Key::new("joints", "[\"crank\"]", "which are driven; or single velocities of them: [\"swivel.phi\"]")
+        .with_default("every velocity with an actuator; of `tracking-pd` those that the trajectory prescribes");
 pub const TARGET: Key = Key::new("target", "[0, \"90 deg\"]", "rad or m").with_default("required");
 pub const KP: Key = Key::new("kp", "49.0", "of all joints, or one of each: [49.0, 20.0]").with_default("required");
 pub const KD: Key = Key::new("kd", "14.0", "of all joints, or one of each: [14.0, 8.0]").with_default("required");
@@ -170,7 +173,7 @@ pub const TRACKING_RATE: Key =
 pub const LIMITS: Key = Key::new(
     "limits",
     "100.0",
-    "N m or N, the largest forces, of all joints or one of each; or \"range\": the `force` of each joint's `range`",
+    "N m or N, the largest forces, of all joints or one of each; or \"range\": the `force` of the `range` of each",
 )
 .with_default("none");
 pub const PAYLOAD: Key = Key::of_table(

@@ -1,5 +1,6 @@
 //! Scenarios: what is to be computed of a model, in TOML.
 
+mod chosen;
 pub mod contact;
 mod forces;
 mod forward;
@@ -16,6 +17,7 @@ mod limits;
 mod prescribed;
 mod resolution;
 pub mod shorthand;
+mod space;
 mod span;
 mod subject;
 mod swing;

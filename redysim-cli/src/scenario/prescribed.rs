@@ -2,12 +2,12 @@
 
 use std::cmp::Ordering;
 
-use redysim_model::{GenericMechanism, Mobility};
+use redysim_model::{GenericMechanism, Mobility, PerVelocity};
 use redysim_runtime::ClosedLoop;
 use redysim_toml::{Message, Reader, Spanned};
 
+use super::chosen::chosen;
 use super::initial::Initial;
-use super::joints::some;
 use super::keys;
 use super::subject::{Subject, neutral};
 use super::trajectory::{Prescribed, freedoms};
@@ -15,13 +15,11 @@ use crate::closed::{closed_position, independent_velocities};
 
 /// Some joints that follow the trajectory, while the others are free or driven.
 pub struct PrescribedJoints {
-    /// Which they are.
-    pub joints: Vec<usize>,
+    /// The velocities along which they do.
+    pub velocities: Vec<usize>,
     /// The motion that they follow, and perhaps others by a torque law.
     pub trajectory: Prescribed,
-    /// Their velocities.
-    pub velocities: Vec<usize>,
-    /// The mechanism as if these joints alone had an actuator: hybrid dynamics takes the accelerations of such joints,
+    /// The mechanism as if these velocities alone had an actuator: hybrid dynamics takes the accelerations of such velocities,
     /// and the forces of the others.
     pub mechanism: GenericMechanism,
 }
@@ -34,13 +32,13 @@ impl PrescribedJoints {
         subject: &Subject<'_>,
         trajectory: Option<Option<&Prescribed>>,
     ) -> Option<Option<PrescribedJoints>> {
-        let field = some(reader, &keys::FOLLOWING, subject.joints());
+        let field = chosen(reader, &keys::FOLLOWING, subject.layout);
         if field.is_missing() {
             return Some(None);
         }
         let named = field.spanned()?;
-        let (joints, trajectory) = (named.get_ref(), trajectory?);
-        if let Some((fault, help)) = fault(subject, joints, trajectory) {
+        let (velocities, trajectory) = (named.get_ref(), trajectory?);
+        if let Some((fault, help)) = fault(subject, velocities, trajectory) {
             let message =
                 Message { title: format!("{}: {fault}", reader.item()), label: "prescribed here".into(), help };
             return reader.error_at(named.span(), message);
@@ -48,10 +46,11 @@ impl PrescribedJoints {
         warn_of_passive(reader, subject, named);
         let mut model = subject.model.clone();
         let moving = model.links.iter_mut().filter(|link| link.dof() > 0);
-        moving.enumerate().for_each(|(joint, link)| link.actuated = joints.contains(&joint).into());
-        let (joints, mechanism) = (joints.clone(), GenericMechanism::new(model));
-        let velocities = subject.layout.velocities_of(&joints);
-        Some(Some(PrescribedJoints { joints, trajectory: trajectory?.clone(), velocities, mechanism }))
+        for (link, joint) in moving.zip(&subject.layout.joints) {
+            link.actuated = PerVelocity::Each(joint.v.clone().map(|velocity| velocities.contains(&velocity)).collect());
+        }
+        let (velocities, mechanism) = (velocities.clone(), GenericMechanism::new(model));
+        Some(Some(PrescribedJoints { velocities, trajectory: trajectory?.clone(), mechanism }))
     }
 
     /// Puts the motion at `t` in the place of what `initial` has for the joints, which then stay there while loops are
@@ -65,18 +64,18 @@ impl PrescribedJoints {
     ) -> Option<()> {
         let layout = subject.layout;
         let motion = redysim_runtime::Trajectory::at(&self.trajectory.spread(layout), t);
-        layout.coordinates_of(&self.joints).into_iter().for_each(|index| initial.q[index] = motion.q[index]);
+        layout.coordinates_along(&self.velocities).into_iter().for_each(|index| initial.q[index] = motion.q[index]);
         self.velocities.iter().for_each(|&index| initial.v[index] = motion.v[index]);
-        initial.hold(&self.joints);
+        initial.hold(&self.velocities);
         if !(subject.loops() && initial.assemble) {
             return Some(());
         }
         let loops = ClosedLoop::new(&self.mechanism);
-        let Err(error) = loops.assemble(&initial.q, &initial.v, &layout.velocities_of(&initial.held)) else {
+        let Err(error) = loops.assemble(&initial.q, &initial.v, &initial.held) else {
             return Some(());
         };
         let reason = loops.with_names(error);
-        let names = names(subject, &self.joints);
+        let names = layout.names(&self.velocities).join(", ");
         let title = format!("{}: where the prescribed joints ({names}) are at t = {t:?} s, {reason}", reader.item());
         let help = "begin the trajectory where the links reach, give `initial.q` nearer, or name fewer joints in \
                     `prescribed` or `initial.held`";
@@ -84,34 +83,42 @@ impl PrescribedJoints {
     }
 }
 
-/// What is wrong with prescribing `joints`, and what to do about it.
-fn fault(subject: &Subject<'_>, joints: &[usize], trajectory: Option<&Prescribed>) -> Option<(String, String)> {
-    let all = subject.joints();
+/// What is wrong with prescribing `velocities`, and what to do about it.
+fn fault(subject: &Subject<'_>, velocities: &[usize], trajectory: Option<&Prescribed>) -> Option<(String, String)> {
+    let layout = subject.layout;
     let Some(trajectory) = trajectory else {
         let fault = "`prescribed` names joints that follow a trajectory, but the scenario does not define one";
         return Some((fault.into(), "add a table `[trajectory]`".into()));
     };
-    if let Some(&joint) = joints.iter().find(|joint| !trajectory.joints.contains(joint)) {
-        let fault =
-            format!("`prescribed` names the joint `{}`, for which the trajectory has no motion", all[joint].name);
+    if let Some(part) = layout.part_of_quaternion(velocities) {
+        let (name, joint) = (&layout.velocities[part].name, &layout.joint_of(part).name);
+        let fault = format!(
+            "`prescribed` names `{name}`, but the orientation of the joint `{joint}` is a quaternion, which moves as a whole"
+        );
+        return Some((fault, format!("name the joint `{joint}`, or leave it out")));
+    }
+    let unmoved: Vec<usize> =
+        velocities.iter().copied().filter(|velocity| !trajectory.velocities.contains(velocity)).collect();
+    if let Some(first) = layout.first_of(&unmoved) {
+        let fault = format!("`prescribed` names {first}, for which the trajectory has no motion");
         return Some((fault, "name it among the `joints` of `[trajectory]`, or leave it out here".into()));
     }
-    if joints.len() == all.len() {
+    if velocities.len() == layout.nv() {
         let help = "name fewer joints; `redysim inverse` computes the forces of a motion of all joints";
         return Some(("every joint is prescribed, so that no motion is left to compute".into(), help.into()));
     }
-    if subject.loops() { fault_of_loops(subject, joints) } else { None }
+    if subject.loops() { fault_of_loops(subject, velocities) } else { None }
 }
 
-/// What is wrong with prescribing `joints` of closed loops: these must leave them free of each other, and leave more.
-fn fault_of_loops(subject: &Subject<'_>, joints: &[usize]) -> Option<(String, String)> {
+/// What is wrong with prescribing `velocities` of closed loops: these must leave them free of each other, and leave more.
+fn fault_of_loops(subject: &Subject<'_>, velocities: &[usize]) -> Option<(String, String)> {
     let Mobility { mobility: free, position_residual, .. } = *subject.mobility();
     if position_residual.is_some() {
         // What loops leave free that were not closed from anywhere is seen when the start closes them.
         return None;
     }
-    let velocities = subject.layout.velocities_of(joints);
-    let what = format!("`prescribed` names {} ({})", freedoms(velocities.len()), names(subject, joints));
+    let names = subject.layout.names(velocities).join(", ");
+    let what = format!("`prescribed` names {} ({names})", freedoms(velocities.len()));
     match velocities.len().cmp(&free) {
         Ordering::Greater => {
             let help = match free {
@@ -144,18 +151,11 @@ fn fault_of_loops(subject: &Subject<'_>, joints: &[usize]) -> Option<(String, St
     Some((fault, format!("leave `{name}` out: it follows from the loops")))
 }
 
-/// The names of `joints`.
-fn names(subject: &Subject<'_>, joints: &[usize]) -> String {
-    joints.iter().map(|&joint| subject.joints()[joint].name.as_str()).collect::<Vec<_>>().join(", ")
-}
-
 /// Warns of joints that cannot follow a motion, since they have no actuator.
 fn warn_of_passive(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, named: &Spanned<Vec<usize>>) {
-    let all = subject.joints();
-    if let Some(&joint) = named.get_ref().iter().find(|joint| !all[**joint].actuated) {
-        let (name, lacking) = (&all[joint].name, subject.layout.lacking_actuators(&all[joint]));
+    if let Some((name, lacking)) = subject.layout.lacking_actuators(named.get_ref()) {
         let message = Message {
-            title: format!("{}: the joint `{name}` is prescribed, but {lacking}", reader.item()),
+            title: format!("{}: {name} is prescribed, but {lacking}", reader.item()),
             label: "one of these".into(),
             help: "this is valid if something outside the model moves the joint; otherwise leave it out, or give it an actuator".into(),
         };

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::held::Held;
 use super::table::InputTable;
 use crate::failure::Failure;
-use crate::layout::{Component, Joint, Layout};
+use crate::layout::{Component, Layout};
 
 /// What may be computed of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -68,14 +68,9 @@ impl Subject<'_> {
         }
     }
 
-    /// The joints that move.
-    pub fn joints(&self) -> &[Joint] {
-        &self.layout.joints
-    }
-
-    /// The joints that have an actuator.
+    /// The velocities that have an actuator.
     pub fn actuated(&self) -> Vec<usize> {
-        indices(self.joints(), |joint| joint.actuated)
+        self.layout.actuated_velocities()
     }
 
     /// Reads the table in the file that `key` names with `read`; errors are reported at the key.
@@ -110,11 +105,6 @@ pub fn given<T>(field: Field<Option<T>>) -> Option<Option<T>> {
         Field::Invalid => None,
         Field::Value(value) => value.into_inner().map(Some),
     }
-}
-
-/// The indices of the joints that are `wanted`.
-pub fn indices(joints: &[Joint], wanted: impl Fn(&Joint) -> bool) -> Vec<usize> {
-    joints.iter().enumerate().filter(|(_, joint)| wanted(joint)).map(|(index, _)| index).collect()
 }
 
 /// The neutral position of coordinates; of velocities, zero.

@@ -3,14 +3,16 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use redysim_model::{GenericMechanism, Link, Mobility, Model};
+use redysim_model::{GenericMechanism, Mobility};
 use redysim_runtime::{
     ConstantDirection, Cycloid, ManifoldSpline, Mechanism, Motion, TangentTrajectory, Trajectory, TrajectoryError,
 };
 use redysim_toml::{Key, Kind, Message, Reader, Spanned};
 
-use super::joints::{Quantity, points, some, values};
+use super::chosen::chosen;
+use super::joints::{Quantity, points, values};
 use super::keys;
+use super::space::{alone, part_of_quaternion, whole_orientations};
 use super::subject::{Dynamics, Subject, given, spread};
 use super::swing;
 use super::table::InputTable;
@@ -18,14 +20,12 @@ use crate::failure::Failure;
 use crate::layout::{Component, Layout};
 use crate::number::counted;
 
-/// A prescribed motion of some joints; its components are in the order of `coordinates` and `velocities`.
+/// A prescribed motion along some velocities; its components are in the order of `coordinates` and `velocities`.
 #[derive(Clone, Debug)]
 pub struct Prescribed {
-    /// The joints that it prescribes.
-    pub joints: Vec<usize>,
-    /// Their coordinates.
+    /// The coordinates that the velocities change.
     pub coordinates: Vec<usize>,
-    /// Their velocities, which determine all others of closed loops.
+    /// The velocities that it prescribes, which determine all others of closed loops.
     pub velocities: Vec<usize>,
     /// The place of its speed, or of the whole table.
     pub place: Range<usize>,
@@ -76,17 +76,25 @@ const KINDS: [Kind<Tag>; 5] = [
 ];
 
 impl Prescribed {
-    /// Reads the table `trajectory`, if there is one. By default it prescribes all joints of a tree, and
-    /// the actuated ones of closed loops.
+    /// Reads the table `trajectory`, if there is one. By default it prescribes all velocities of a tree, and the actuated ones
+    /// of closed loops.
     pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Option<Prescribed>> {
-        let (layout, joints) = (subject.layout, subject.joints());
-        let usual = if subject.loops() { subject.actuated() } else { (0..joints.len()).collect() };
+        let layout = subject.layout;
+        let usual = || match subject.loops() {
+            true => whole_orientations(layout, subject.actuated()),
+            false => (0..layout.nv()).collect(),
+        };
         let mut place = None;
         let field =
             reader.table_of_kind(&keys::TRAJECTORY, &keys::MOTION_KIND, &KINDS, &KINDS[0], |mut reader, tag| {
-                let chosen = some(&mut reader, &keys::PRESCRIBED, joints).value_or(usual.clone())?;
-                let (of_q, of_v) = (layout.coordinates_of(&chosen), layout.velocities_of(&chosen));
-                let space = Arc::new(alone(subject.model, &chosen));
+                let field = chosen(&mut reader, &keys::PRESCRIBED, layout);
+                let named = field.spanned().map(Spanned::span);
+                let of_v = field.value_or(usual())?;
+                if let Some(part) = layout.part_of_quaternion(&of_v) {
+                    return part_of_quaternion(&mut reader, named, layout, part);
+                }
+                let of_q = layout.coordinates_along(&of_v);
+                let space = Arc::new(alone(layout, &of_v));
                 let coordinates = |reader: &mut Reader<'_, '_>, key: &Key| {
                     let read = |reader: &mut _, key: &_| values(reader, key, Quantity::Coordinate, layout, &of_q);
                     reader.required(key, read).value().cloned()
@@ -134,8 +142,7 @@ impl Prescribed {
                         Path::ViaPoints(through)
                     }
                 };
-                let (joints, coordinates, velocities) = (chosen, of_q, of_v);
-                let prescribed = Prescribed { joints, coordinates, velocities, place: 0..0, table, motion };
+                let prescribed = Prescribed { coordinates: of_q, velocities: of_v, place: 0..0, table, motion };
                 let checked = match subject.dynamics {
                     Dynamics::Inverse => prescribed.check_joints(subject),
                     // A law that follows a trajectory checks it by itself.
@@ -162,13 +169,13 @@ impl Prescribed {
     /// Fails, with what is wrong and what to do, unless it prescribes how all of a mechanism moves and nothing twice: a
     /// tree every joint, closed loops as many as they leave free.
     pub fn check_joints(&self, subject: &Subject<'_>) -> Result<(), (String, String)> {
-        let joints = subject.joints();
+        let layout = subject.layout;
         if !subject.loops() {
-            let free = joints.iter().enumerate().find(|(index, _)| !self.joints.contains(index));
-            let Some((_, joint)) = free else { return Ok(()) };
+            let free: Vec<usize> = (0..layout.nv()).filter(|velocity| !self.velocities.contains(velocity)).collect();
+            let Some(first) = layout.first_of(&free) else { return Ok(()) };
             let help = "name all joints among its `joints`; or have the others move as forces make them, by `prescribed` of \
                         `[forward]`";
-            return Err((format!("the trajectory does not prescribe the joint `{}`", joint.name), help.into()));
+            return Err((format!("the trajectory does not prescribe {first}"), help.into()));
         }
         let Mobility { mobility: free, position_residual, .. } = *subject.mobility();
         let prescribed = self.velocities.len();
@@ -176,11 +183,10 @@ impl Prescribed {
         if prescribed == free || position_residual.is_some() {
             return Ok(());
         }
-        let names: Vec<_> = self.joints.iter().map(|&joint| joints[joint].name.as_str()).collect();
         let what = format!(
             "the trajectory prescribes {} ({}), but the loops leave {free} free",
             freedoms(prescribed),
-            names.join(", ")
+            layout.names(&self.velocities).join(", ")
         );
         let help = match free {
             0 => "as the model is, nothing moves: `redysim check` reports which constraints do not follow from others"
@@ -269,14 +275,6 @@ fn accepted<T, V>(reader: &mut Reader<'_, '_>, at: &Spanned<V>, made: Result<T, 
         reader.error_at::<()>(at.span(), Message { title, label: "here".into(), help })
     })
     .ok()
-}
-
-/// The joints `chosen` of a model, each by itself on the base, in this order: the space of their positions.
-fn alone(model: &Model, chosen: &[usize]) -> GenericMechanism {
-    let moving: Vec<&Link> = model.moving_links().collect();
-    let links = chosen.iter().map(|&joint| Link { parent: None, ..moving[joint].clone() }).collect();
-    let model = Model { links, loops: Vec::new(), frames: Vec::new(), springs: Vec::new(), ..model.clone() };
-    GenericMechanism::new(model)
 }
 
 /// The time law of a constant speed, s(t) = t.

@@ -2,9 +2,11 @@
 //! in `viewer.rs`.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::common::{Table, call, data, fail, model, results, scratch, slide, succeed, swing, turn};
+use crate::common::{Table, call, data, fail, model, results, scratch, shipped, slide, succeed, swing, turn};
+use crate::rover;
+use redysim_cli::Results;
 use serde_json::Value;
 
 /// Makes the page of the results in `folder`.
@@ -191,8 +193,111 @@ fn the_page_of_a_free_robot_has_its_quaternion_and_the_rates_of_its_velocities()
     succeed(&run, &["plot", "."]);
 }
 
+/// The results of the shipped parcel with rows this far apart, s.
+pub fn parcel(folder: &Path, step: f64) -> PathBuf {
+    let shipped = fs::read_to_string(shipped("parcel")).unwrap();
+    let (model, path) = (model("parcel.toml"), folder.join("parcel.toml"));
+    let scenario = shipped.replace("../models/parcel.toml", &model).replace("step = 0.01", &format!("step = {step:?}"));
+    fs::create_dir_all(folder).unwrap();
+    fs::write(&path, scenario).unwrap();
+    succeed(folder, &["forward", path.to_str().unwrap(), "-o", "run", "--quiet"]);
+    folder.join("run")
+}
+
+/// When and where a page has footprints of each contact.
+fn footprints(page: &str) -> Vec<Vec<Vec<f64>>> {
+    let places = data(page)["contacts"]["places"].clone();
+    let of_place = |place: &Value| place["footprints"].as_array().unwrap().iter().map(numbers).collect();
+    places.as_array().unwrap().iter().map(of_place).collect()
+}
+
+/// How often a contact touches in a row and does not in the last one.
+fn begun_in_rows(run: &Path) -> usize {
+    let contacts = Table::csv(&run.join("contacts.csv"));
+    let begun = |contact: &usize, pair: &[Vec<f64>]| pair[0][6 * contact] == 0.0 && pair[1][6 * contact] == 1.0;
+    (1..=8).map(|contact| contacts.rows.windows(2).filter(|pair| begun(&contact, pair)).count()).sum()
+}
+
 #[test]
-fn a_camera_that_is_asked_for_is_in_the_page_and_follows_floating_bases_alone() {
+fn a_run_whose_rows_are_coarser_than_its_bounces_has_a_footprint_for_every_touch_down_of_its_record() {
+    let folder = scratch("animate-footprints");
+    let run = parcel(&folder, 0.1);
+    let (page, record) = (page(&run), Table::csv(&run.join("touch_downs.csv")));
+    let count = Results::load(&run).unwrap().run.touch_downs.unwrap() as usize;
+    assert!(begun_in_rows(&run) < count, "every touch-down is seen in the rows: the test shows nothing");
+    let footprints = footprints(&page);
+    assert_eq!((footprints.iter().flatten().count(), record.rows.len()), (count, count));
+    for (contact, shown) in footprints.iter().enumerate() {
+        let of_contact: Vec<_> = record.rows.iter().filter(|row| row[1] == contact as f64).collect();
+        assert_eq!(shown.len(), of_contact.len(), "contact {contact}");
+        for (print, row) in shown.iter().zip(of_contact) {
+            assert_eq!((print[0], print[1], print[2]), (row[0], row[2], row[3]), "contact {contact}");
+            assert!(print[3].abs() < 1e-15, "{print:?} is on the ground");
+        }
+    }
+    assert_eq!(data(&page)["notes"], serde_json::json!([]));
+}
+
+#[test]
+fn results_without_a_record_of_touch_downs_have_the_footprints_of_their_rows_and_report_how_many_are_missing() {
+    let folder = scratch("animate-footprints-of-rows");
+    let run = parcel(&folder, 0.1);
+    fs::remove_file(run.join("touch_downs.csv")).unwrap();
+    let (page, shown) = (page(&run), begun_in_rows(&run));
+    assert_eq!(footprints(&page).iter().flatten().count(), shown);
+    let missing = Results::load(&run).unwrap().run.touch_downs.unwrap() as usize - shown;
+    let note = format!("{missing} touch-downs between instants without a footprint");
+    assert!(data(&page)["notes"][0].as_str().unwrap().starts_with(&note), "{}", data(&page)["notes"]);
+}
+
+#[test]
+fn the_camera_can_follow_a_base_on_a_free_or_planar_joint_also_where_a_link_is_fixed_between_it_and_the_ground() {
+    let folder = scratch("animate-base");
+    let bases = [
+        ("planar", "joint = 'planar'", "[3, 0, 0.5]"),
+        ("free", "joint = 'free'", "[3, 0, 0, 0, 0, 0.5]"),
+        ("angles", "joint = 'free'\ncoordinates = 'zyx'", "[3, 0, 0, 0.5, 0, 0]"),
+    ];
+    for (name, joint, v) in bases {
+        let run = rover::drive(&folder.join(name), joint, v, 2);
+        succeed(&run, &["animate", ".", "--camera", "follow"]);
+        let data = data(&fs::read_to_string(run.join("animation.html")).unwrap());
+        let base = data["base"].as_u64().unwrap() as usize;
+        assert_eq!(data["bodies"][base]["name"], "chassis", "{name}");
+        assert_eq!(data["bodies"][base]["joint"]["kind"], name.replace("angles", "free"));
+    }
+}
+
+#[test]
+fn of_several_bases_the_camera_can_follow_the_one_that_carries_the_most_links() {
+    let folder = scratch("animate-bases");
+    let path = folder.join("two.toml");
+    let link = |name: &str, parent: &str, joint: &str| {
+        format!(
+            "[[link]]\nname = '{name}'\nparent = '{parent}'\njoint = '{joint}'\norigin = {{}}\nmass = 1\n\
+                 inertia = {{ xx = 1, yy = 1, zz = 1 }}\nactuated = false\n"
+        )
+    };
+    let links = [
+        link("ball", "base", "free"),
+        link("cart", "base", "planar"),
+        link("mast", "cart", "planar"),
+        link("sledge", "base", "planar"),
+        link("box", "sledge", "planar"),
+    ];
+    let start = "name = 'two'\ngravity = [0, 0, 0]\nallow = ['under-actuated', 'no-gravity']\n";
+    fs::write(&path, format!("{start}{}", links.concat())).unwrap();
+    let run = results(&folder, "forward", path.to_str().unwrap(), "[forward]\nend = 0.1\nstep = 0.05\n");
+    let data = data(&page(&run));
+    assert_eq!(
+        data["bodies"][data["base"].as_u64().unwrap() as usize]["name"],
+        "cart",
+        "the first of two that carry one"
+    );
+}
+
+#[test]
+fn a_camera_that_is_asked_for_is_in_the_page_and_follows_moving_bases_alone() {
     let folder = scratch("animate-camera");
     let rest = "[forward]\nend = 0.1\nstep = 0.05\n";
     let run = results(&folder, "forward", "kr5_floating.toml", rest);
@@ -203,8 +308,12 @@ fn a_camera_that_is_asked_for_is_in_the_page_and_follows_floating_bases_alone() 
     }
     let fixed = swing(&folder.join("fixed"), "kr5.toml", 6, 1.0, 10);
     let output = fail(&fixed, &["animate", ".", "--camera", "follow"], 2);
-    assert!(output.contains("the camera cannot follow `kr5`: none of its links floats on a `free` joint"), "{output}");
+    let message = "the camera cannot follow `kr5`: it follows a base, a link on a `free` or `planar` joint to the ground, \
+                   and finds `revolute` alone";
+    assert!(output.contains(message), "{output}");
     assert!(!fixed.join("animation.html").exists());
+    assert_eq!(data(&page(&fixed))["base"], Value::Null);
+    fs::remove_file(fixed.join("animation.html")).unwrap();
     succeed(&fixed, &["animate", ".", "--camera", "fixed"]);
     let output = fail(&fixed, &["animate", ".", "--camera", "still"], 2);
     assert!(output.contains("follow, fixed"), "{output}");

@@ -7,6 +7,7 @@ mod animate;
 mod meshes;
 mod pictures;
 mod plot;
+mod rover;
 mod show;
 mod viewer;
 mod viewer_show;

@@ -8,7 +8,9 @@ use std::process::Command;
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::{Frames, Mechanism};
 
+use crate::animate;
 use crate::common::{Table, model, results, robot, scratch, shipped, slide, succeed, swing, turn};
+use crate::rover;
 
 /// Makes the page of the results in `folder` and has `viewer/test.mjs` look at it, and hold it against the results of
 /// the same motion at more instants if there are.
@@ -18,7 +20,7 @@ fn plays(folder: &Path, finer: Option<&Path>) {
 }
 
 /// Makes the page of the results in `folder` with more `options` and has `viewer/camera.mjs` look where the camera is.
-fn films(folder: &Path, options: &[&str], expected: [&str; 3]) {
+fn films<const N: usize>(folder: &Path, options: &[&str], expected: [&str; N]) {
     succeed(folder, &[&["animate", ".", "--force"], options].concat());
     node("camera.mjs", folder, expected);
 }
@@ -163,6 +165,14 @@ fn the_camera_follows_a_platform_in_the_air_on_request_in_all_directions() {
 
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_camera_follows_a_base_that_drives_over_a_plane() {
+    let run = rover::drive(&folder("camera_rover"), "joint = 'planar'", "[3, 0, 0.5]", 40);
+    films(&run, &[], ["follow", "chassis", "none", "0.6"]);
+    films(&run, &["--camera", "fixed"], ["fixed", "chassis", "none"]);
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn the_camera_has_nothing_to_follow_where_the_base_is_fixed() {
     films(&swing(&folder("camera_kr5"), "kr5.toml", 6, 4.0, 100), &[], ["none", "link1", "none"]);
 }
@@ -191,4 +201,13 @@ fn the_page_draws_forces_of_the_ground_at_the_feet_and_footprints_where_they_tou
         succeed(&run, &["animate", ".", "--force"]);
         node("contacts.mjs", &run, [normal]);
     }
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_draws_footprints_of_bounces_between_the_instants_of_a_run() {
+    let run = animate::parcel(&folder("contacts_parcel_coarse"), 0.1);
+    write_points(&run, "parcel");
+    succeed(&run, &["animate", ".", "--force"]);
+    node("contacts.mjs", &run, ["z"]);
 }

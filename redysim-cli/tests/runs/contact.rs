@@ -1,6 +1,7 @@
 //! Runs on the ground: motion against a separate integration, tables, the balance of energy, and refusals.
 
-use redysim_runtime::Real;
+use redysim_model::GenericMechanism;
+use redysim_runtime::{Frames, Real};
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 use std::path::Path;
@@ -113,6 +114,36 @@ fn a_parcel_that_is_thrown_comes_to_rest_with_its_weight_on_four_corners() {
     let results = Results::load(folder.join("run")).unwrap();
     assert_eq!(results.tables["contacts"].columns.len(), 48);
     assert_eq!(results.run.touch_downs, Some(13));
+}
+
+/// Rows are so close that each contact is seen to begin in one: there the touch-down was, as far as the frame moves between
+/// two rows.
+#[test]
+fn touch_downs_csv_has_when_and_where_each_contact_begins() {
+    let folder = scratch("contact-touch-downs");
+    let shipped = fs::read_to_string(shipped("parcel")).unwrap();
+    let rows = shipped.replace("step = 0.01", "step = 0.0005").replace("end = 3.0", "end = 1.5");
+    let path = folder.join("parcel.toml");
+    fs::write(&path, rows.replace("../models/parcel.toml", &model("parcel.toml"))).unwrap();
+    succeed(&folder, &["forward", path.to_str().unwrap(), "-o", "run", "--quiet"]);
+    let [record, contacts, state] =
+        ["touch_downs", "contacts", "statevar"].map(|name| Table::csv(&folder.join(format!("run/{name}.csv"))));
+    assert_eq!(record.headers, ["t [s]", "contact [1]", "x [m]", "y [m]", "z [m]"]);
+    let results = Results::load(folder.join("run")).unwrap();
+    assert_eq!(results.run.touch_downs, Some(record.rows.len() as u64));
+    assert!(record.rows.len() > 5, "it touches down");
+    let mechanism = GenericMechanism::new(results.model);
+    for touch_down in &record.rows {
+        let [t, contact, ref place @ ..] = touch_down[..] else { panic!("{touch_down:?}") };
+        let after = contacts.rows.iter().position(|row| row[0] > t).unwrap();
+        let touching = |row: usize| contacts.rows[row][6 * (contact as usize + 1)];
+        assert_eq!((touching(after - 1), touching(after)), (0.0, 1.0), "{touch_down:?}");
+        assert!(place[2].abs() < 1e-12, "{touch_down:?} is on the ground");
+        let q = state.rows[after][1..8].to_vec();
+        let origin = mechanism.frame_kinematics(&q, &vec![0.0; 6])[contact as usize].origin;
+        // It moves by less than 10 m/s.
+        assert!((0..3).all(|axis| (origin[axis] - place[axis]).abs() < 0.005), "{touch_down:?}, not {origin:?}");
+    }
 }
 
 #[test]

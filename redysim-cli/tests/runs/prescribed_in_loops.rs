@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{AGAINST_CLOSED_FORMS, Table, deviation, fail, root, scenario, scratch, succeed};
+use crate::common::{AGAINST_CLOSED_FORMS, BALLS, Table, deviation, fail, root, scenario, scratch, succeed};
 
 /// The 3-RRR robot, whose first crank is moved while a spring and a damper hold the third and all else falls.
 fn three_rrr(folder: &Path, more: &str) -> impl Fn(&str) -> Table + use<> {
@@ -152,4 +152,41 @@ fn what_the_loops_leave_alone_does_not_change_the_force_of_a_prescribed_joint() 
     let force = |run: &str| vec![Table::csv(&folder.join(run).join("tor.csv")).column("tau crank [N m]")];
     let worst = deviation(&force("run"), &force("alone"));
     assert!(worst < 1e-9, "off by {worst:e} N m");
+}
+
+/// The rocker of the crank and the rocker with a ball at either end of their coupler may also tilt: by a universal joint, or by two
+/// revolute ones.
+#[test]
+fn one_velocity_of_a_joint_in_closed_loops_follows_its_trajectory_while_the_other_moves_as_the_loops_leave_it() {
+    let folder = scratch("prescribed-loops-velocity");
+    let rocker = "joint = 'revolute'\naxis = [0, 1, 0]\norigin = { xyz = [1, 0, 0] }";
+    let tilting = BALLS.replace(rocker, "joint = 'universal'\norigin = { xyz = [1, 0, 0] }");
+    let name = "[[link]]\nname = 'rocker'\nparent = 'base'\n";
+    let tilt = "[[link]]\nname = 'tilt'\nparent = 'base'\njoint = 'revolute'\naxis = [1, 0, 0]\norigin = { xyz = [1, 0, 0] }\nmass = 0\n\
+                inertia = { xx = 0, yy = 0, zz = 0 }\nactuated = false\n[[link]]\nname = 'rocker'\nparent = 'tilt'\n";
+    let on_two = BALLS.replace(rocker, "joint = 'revolute'\naxis = [0, 1, 0]\norigin = {}").replace(name, tilt);
+    assert!(tilting.contains("universal") && on_two.contains("'tilt'"));
+    let run = |model: &str, tilts: &str| {
+        fs::write(
+            folder.join("model.toml"),
+            model.replace("allow = [", "allow = ['point-masses', 'missing-inertia', "),
+        )
+        .unwrap();
+        let text = format!(
+            "model = 'model.toml'\ninitial = {{ q = {{ coupler = {{ rpy = [0, -0.6435, 0] }} }} }}\n[trajectory]\njoints = ['{tilts}']\n\
+             from = [0.05]\nto = [0.25]\nduration = 0.4\n[forward]\nend = 0.4\nstep = 0.05\nprescribed = ['{tilts}']\n\
+             {AGAINST_CLOSED_FORMS}"
+        );
+        fs::write(folder.join("trial.toml"), text).unwrap();
+        succeed(&folder, &["forward", "trial.toml", "-o", "run", "--force", "--quiet"]);
+        ["statevar", "tor"].map(|name| Table::csv(&folder.join("run").join(format!("{name}.csv"))).rows)
+    };
+    let [states, forces] = run(&tilting, "rocker.phi");
+    let [other_states, other_forces] = run(&on_two, "tilt");
+    let off = [deviation(&states, &other_states), deviation(&forces, &other_forces)];
+    assert!(off[0] < 1e-10 && off[1] < 1e-9, "{off:?}");
+    let (first, last) = (&states[0], &states[8]);
+    assert!((first[2], last[2]) == (0.05, 0.25), "the tilt follows: {first:?}, {last:?}");
+    assert!((last[3] - first[3]).abs() > 0.01 && (last[1] - first[1]).abs() > 0.01, "the others move: {last:?}");
+    assert!(forces.iter().all(|row| row[3] == 0.0) && forces.iter().any(|row| row[2].abs() > 0.1), "{forces:?}");
 }

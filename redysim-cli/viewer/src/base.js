@@ -1,10 +1,12 @@
-// The base of a mechanism that floats, which the camera can follow.
+// The base of a mechanism that floats or drives, which the camera can follow.
 
 import { Vector3 } from "three";
 
 export class Base {
   /** Of a mechanism that touches the ground, `normal` is that of the ground. */
   constructor(body, linkage, normal) {
+    /** For every body, whether the base carries it, as it does itself. */
+    this.carried = linkage.poses.map((_, other) => linkage.carriers(other).includes(body - 1));
     this.position = linkage.poses[body].position;
     this.start = this.position.clone();
     this.normal = normal && new Vector3(...normal);
@@ -17,11 +19,7 @@ export class Base {
   }
 }
 
-/** The base that floats, with the mechanism at its start: of several, the one that carries the most links. */
-export function floatingBase({ bodies, contacts }, linkage) {
-  const floats = ({ joint }) => joint?.kind === "free" && joint.coordinate !== null && joint.parent === 0;
-  const carried = bodies.map(() => 0);
-  for (const body of bodies.keys()) for (const link of linkage.carriers(body)) carried[link + 1] += 1;
-  const bases = [...bodies.keys()].filter((body) => floats(bodies[body])).sort((a, b) => carried[b] - carried[a]);
-  return bases.length ? new Base(bases[0], linkage, contacts?.normal) : null;
+/** The base that moves, with the mechanism at its start; null where there is none. */
+export function movingBase({ base, contacts }, linkage) {
+  return base === null ? null : new Base(base, linkage, contacts?.normal);
 }

@@ -6,7 +6,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
-import { floatingBase } from "./base.js";
+import { movingBase } from "./base.js";
 import { Contacts } from "./contacts.js";
 import { AXES } from "./marks.js";
 import { Mechanism } from "./mechanism.js";
@@ -37,7 +37,7 @@ export class Stage {
     const solids = meshes(data, (name) => this.unread.push(name));
     const points = data.bodies.map(({ ends }) => ends.map((end) => new Vector3(...end)));
     for (const { body, box } of solids) points[body].push(...corners(box));
-    const everywhere = (see) => moved.visit(() => everyPoint(points, linkage, see));
+    const everywhere = (see, wanted) => moved.visit(() => everyPoint(points, linkage, see, wanted));
     this.sphere = reach(everywhere);
     this.#base(data, linkage, everywhere);
     // What is drawn is as large as it must be to be seen from where the camera starts.
@@ -120,23 +120,26 @@ export class Stage {
     this.#fit(from.clone());
   }
 
-  /** The base that floats, how far the mechanism reaches beside the way of the base, and whether the camera follows: by
-   * default where that way is longer. */
-  #base(data, linkage, everywhere) {
-    this.base = data.motion ? floatingBase(data, linkage) : null;
+  /** The base that moves, what it carries as seen from it, and whether the camera follows: by default where the way of the
+   * base is longer than the mechanism reaches beside it. `every` sees the points of all bodies, or of those wanted. */
+  #base(data, linkage, every) {
+    this.base = data.motion ? movingBase(data, linkage) : null;
     this.following = false;
     if (!this.canFollow) return;
     let longest = 0;
-    this.own = reach((see) => {
-      const own = new Vector3();
-      everywhere((point) => {
-        const travel = this.base.travel();
-        longest = Math.max(longest, travel.length());
-        see(own.copy(point).sub(travel));
+    const fromBase = (wanted) =>
+      reach((see) => {
+        const own = new Vector3();
+        every((point) => {
+          const travel = this.base.travel();
+          longest = Math.max(longest, travel.length());
+          see(own.copy(point).sub(travel));
+        }, wanted);
       });
-    });
+    this.own = fromBase(this.base.carried);
+    const { radius } = fromBase();
     this.followed = this.base.travel();
-    this.following = data.camera ? data.camera === "follow" : longest > this.own.radius;
+    this.following = data.camera ? data.camera === "follow" : longest > radius;
   }
 
   /** Moves the camera as far as the base has moved since. */
@@ -303,10 +306,12 @@ function corners({ min, max }) {
   return [...Array(8).keys()].map((corner) => new Vector3(pick(corner, 0), pick(corner, 1), pick(corner, 2)));
 }
 
-/** Calls `see` with the origins of the bodies and the `points` of each where the links are. */
-function everyPoint(points, linkage, see) {
+/** Calls `see` with the origins of the bodies, of all or of those that are `wanted`, and the `points` of each where the
+ * links are. */
+function everyPoint(points, linkage, see, wanted) {
   const point = new Vector3();
   linkage.poses.forEach(({ position, rotation }, body) => {
+    if (wanted && !wanted[body]) return;
     see(point.copy(position));
     for (const own of points[body]) see(point.copy(own).applyQuaternion(rotation).add(position));
   });

@@ -84,14 +84,14 @@ impl Distances {
 /// The coordinates that a law leads, and where it wants them at `t`.
 fn wanted(law: &Torque, t: f64, layout: &Layout) -> Vec<(usize, f64)> {
     match law {
-        Torque::P { joints, target, .. }
-        | Torque::Pd { joints, target, .. }
-        | Torque::Pid { joints, target, .. }
-        | Torque::PdGravity { joints, target, .. } => {
-            layout.coordinates_of(joints).into_iter().zip(target.iter().copied()).collect()
+        Torque::P { driven, target, .. }
+        | Torque::Pd { driven, target, .. }
+        | Torque::Pid { driven, target, .. }
+        | Torque::PdGravity { driven, target, .. } => {
+            layout.coordinates_along(driven).into_iter().zip(target.iter().copied()).collect()
         }
-        Torque::TrackingPd { trajectory, joints, .. } => {
-            let led = layout.coordinates_of(joints);
+        Torque::TrackingPd { trajectory, driven, .. } => {
+            let led = layout.coordinates_along(driven);
             let all = trajectory.coordinates.iter().copied().zip(trajectory.at(t).q);
             all.filter(|(index, _)| led.contains(index)).collect()
         }

@@ -127,8 +127,7 @@ impl<'a> System<'a> {
             }
             return Ok(state(&initial.q, &initial.v));
         }
-        let closed =
-            loops.assemble(&initial.q, &initial.v, &scenario.layout.velocities_of(&initial.held)).map_err(failed)?;
+        let closed = loops.assemble(&initial.q, &initial.v, &initial.held).map_err(failed)?;
         if !quiet {
             let changes = |components: &[Component], to: &[f64], from: &[f64], per: &str| {
                 let changed = components.iter().zip(to.iter().zip(from)).filter(|(_, (to, from))| to != from);

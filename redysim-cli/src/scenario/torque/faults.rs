@@ -1,8 +1,9 @@
 //! What can be wrong with a torque law beside its trajectory.
 
+use redysim_toml::words::shortened;
 use redysim_toml::{Message, Reader};
 
-use crate::layout::{Joint, Layout};
+use crate::layout::Layout;
 
 pub(super) fn unfollowed<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
     reader.error_of_table(Message {
@@ -12,56 +13,69 @@ pub(super) fn unfollowed<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
     })
 }
 
-pub(super) fn nothing_actuated<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
+/// Reports a law that by default drives nothing, since `of_none` has an actuator. Always `None`.
+pub(super) fn nothing_actuated<T>(reader: &mut Reader<'_, '_>, of_none: &str) -> Option<T> {
     reader.error_of_table(Message {
-        title: format!("{}: no joint that the trajectory prescribes has an actuator", reader.item()),
+        title: format!("{}: {of_none} has an actuator, so that the torque law drives nothing", reader.item()),
         label: "drives nothing".into(),
-        help: "prescribe actuated joints, or name those that the law drives under `joints`".into(),
+        help: "name those that the law drives under `joints`, or give a joint an actuator in the model".into(),
     })
 }
 
-pub(super) fn not_prescribed<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
+/// Reports that the trajectory lacks the first of the velocities `missing`, which the law drives. Always `None`.
+pub(super) fn not_prescribed<T>(reader: &mut Reader<'_, '_>, layout: &Layout, missing: &[usize]) -> Option<T> {
+    let first = layout.first_of(missing)?;
     reader.error_of_table(Message {
-        title: format!(
-            "{}: the trajectory does not prescribe the joint `{}` that the torque law drives",
-            reader.item(),
-            joint.name
-        ),
+        title: format!("{}: the trajectory does not prescribe {first} that the torque law drives", reader.item()),
         label: "drives a joint without a prescribed motion".into(),
         help: "name it among the `joints` of `[trajectory]`, or drive fewer".into(),
     })
 }
 
-/// Reports a joint that follows the trajectory and is driven as well, as `also` states. Always `None`.
-pub(super) fn prescribed<T>(reader: &mut Reader<'_, '_>, also: &str, joint: &Joint) -> Option<T> {
+/// Reports the first of some velocities that follow the trajectory and are driven as well, as `also` states. Always `None`.
+pub(super) fn prescribed<T>(
+    reader: &mut Reader<'_, '_>,
+    also: &str,
+    layout: &Layout,
+    velocities: &[usize],
+) -> Option<T> {
+    let first = layout.first_of(velocities)?;
     reader.error_of_table(Message {
-        title: format!(
-            "{}: the joint `{}` is prescribed, and {also}: its force follows from its motion",
-            reader.item(),
-            joint.name
-        ),
+        title: format!("{}: {first} is prescribed, and {also}: its force follows from its motion", reader.item()),
         label: "drives a joint that is prescribed".into(),
         help: "leave the joint out here, or out of `forward.prescribed`".into(),
     })
 }
 
-/// Of a tree with joints that have no actuator, computed torque moves the others, all of them.
-pub(super) fn underactuated<T>(reader: &mut Reader<'_, '_>, layout: &Layout, joint: &Joint) -> Option<T> {
-    let (item, Joint { name, actuated, .. }) = (reader.item(), joint);
-    let (title, help) = if *actuated {
-        let title = format!(
-            "{item}: the trajectory does not prescribe the joint `{name}`, and computed torque moves every joint with \
-             an actuator"
-        );
-        (title, "name all joints with an actuator among the `joints` of `[trajectory]`")
-    } else {
-        let title = format!(
-            "{item}: computed torque moves what the trajectory prescribes, but the joint `{name}` {}",
-            layout.lacking_actuators(joint)
-        );
-        let help = "name those with an actuator as the `joints` of `[trajectory]`, and the others follow from the \
-                    dynamics; or take the law `tracking-pd`";
-        (title, help)
+/// Reports that computed torque cannot move what a trajectory prescribes of a tree in which some velocities have no
+/// actuator: it is one of exactly those with an actuator. `idle` are those with an actuator that it lacks. Always `None`.
+pub(super) fn underactuated<T>(
+    reader: &mut Reader<'_, '_>,
+    layout: &Layout,
+    (prescribed, idle): (&[usize], &[usize]),
+) -> Option<T> {
+    let item = reader.item();
+    let (title, help) = match (layout.lacking_actuators(prescribed), layout.first_of(idle)) {
+        (Some((name, lacking)), _) => {
+            let title = format!("{item}: computed torque moves what the trajectory prescribes, but {name} {lacking}");
+            let actuated = layout.actuated_velocities();
+            let named = match &layout.names(&actuated)[..] {
+                [] => String::new(),
+                names => format!(" ({})", shortened(names)),
+            };
+            let help = format!(
+                "name those with an actuator as the `joints` of `[trajectory]`{named}, and the others follow from the dynamics; or \
+                 take the law `tracking-pd`"
+            );
+            (title, help)
+        }
+        (None, first) => {
+            let title = format!(
+                "{item}: the trajectory does not prescribe {}, and computed torque moves every joint with an actuator",
+                first?
+            );
+            (title, "name all joints with an actuator among the `joints` of `[trajectory]`".to_owned())
+        }
     };
-    reader.error_of_table(Message { title, label: "not with this trajectory".into(), help: help.into() })
+    reader.error_of_table(Message { title, label: "not with this trajectory".into(), help })
 }

@@ -14,8 +14,8 @@ use crate::scenario::subject::given;
 /// A frame on springs and dampers.
 #[derive(Clone, Debug)]
 pub struct HeldFrame {
-    /// The joints that are driven.
-    pub joints: Vec<usize>,
+    /// The velocities that are driven.
+    pub driven: Vec<usize>,
     /// The model with the payload that the law assumes, if it assumes one.
     laden: Option<Box<GenericMechanism>>,
     /// The number of the frame.
@@ -33,8 +33,8 @@ pub struct HeldFrame {
 const COMPENSATIONS: [(&str, Compensation); 2] = [("gravity", Compensation::Gravity), ("bias", Compensation::Bias)];
 
 impl HeldFrame {
-    /// Reads the keys of the law, which drives `joints`.
-    pub fn read(reader: &mut Reader<'_, '_>, model: &Model, joints: Vec<usize>) -> Option<HeldFrame> {
+    /// Reads the keys of the law, which drives the velocities `driven`.
+    pub fn read(reader: &mut Reader<'_, '_>, model: &Model, driven: Vec<usize>) -> Option<HeldFrame> {
         let name = reader.required(&keys::FRAME, Reader::text);
         let frame = name.spanned().and_then(|name| frame(reader, model, name, "the law `impedance`"));
         let target = given(reader.table(&keys::POSE, |mut reader| {
@@ -53,7 +53,7 @@ impl HeldFrame {
         let laden = payload::read(reader, model);
         let (origin, rotation) = target?.unwrap_or_default();
         Some(HeldFrame {
-            joints,
+            driven,
             laden: laden?,
             frame: frame?,
             origin,

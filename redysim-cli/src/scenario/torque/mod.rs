@@ -20,23 +20,23 @@ use super::trajectory::Prescribed;
 use crate::layout::Layout;
 pub use impedance::HeldFrame;
 
-/// A torque law, as the scenario has it: its values are those of the joints that it drives.
+/// A torque law, as the scenario has it: its values are those of the velocities that it drives.
 #[derive(Clone, Debug)]
 pub enum Torque {
     Zero,
     P {
-        joints: Vec<usize>,
+        driven: Vec<usize>,
         target: Vec<f64>,
         kp: Vec<f64>,
     },
     Pd {
-        joints: Vec<usize>,
+        driven: Vec<usize>,
         target: Vec<f64>,
         kp: Vec<f64>,
         kd: Vec<f64>,
     },
     Pid {
-        joints: Vec<usize>,
+        driven: Vec<usize>,
         target: Vec<f64>,
         kp: Vec<f64>,
         ki: Vec<f64>,
@@ -44,7 +44,7 @@ pub enum Torque {
         tracking_rate: Vec<f64>,
     },
     PdGravity {
-        joints: Vec<usize>,
+        driven: Vec<usize>,
         target: Vec<f64>,
         kp: Vec<f64>,
         kd: Vec<f64>,
@@ -56,17 +56,17 @@ pub enum Torque {
     /// A law within the limits of the actuators, one for each of the velocities that it drives.
     Limited {
         law: Box<Torque>,
-        joints: Vec<usize>,
+        driven: Vec<usize>,
         limits: Vec<f64>,
     },
     /// A spring and a damper to a motion.
     TrackingPd {
-        joints: Vec<usize>,
+        driven: Vec<usize>,
         trajectory: Prescribed,
         kp: Vec<f64>,
         kd: Vec<f64>,
     },
-    /// The same, with the model; its gains are those of the joints that are prescribed, of closed loops the independent
+    /// The same, with the model; its gains are those of the velocities that are prescribed, of closed loops the independent
     /// ones.
     Computed {
         /// The velocities that have an actuator.
@@ -77,23 +77,23 @@ pub enum Torque {
     },
     /// Forces over time.
     Table {
-        joints: Vec<usize>,
+        driven: Vec<usize>,
         forces: Forces,
     },
 }
 
 impl Torque {
-    /// The joints that the law drives, given or by default.
-    pub fn joints(&self) -> Option<&[usize]> {
+    /// The velocities that the law drives, given or by default.
+    pub fn driven(&self) -> Option<&[usize]> {
         match self.unlimited() {
             Torque::Zero | Torque::Computed { .. } | Torque::Limited { .. } => None,
-            Torque::P { joints, .. }
-            | Torque::Pd { joints, .. }
-            | Torque::Pid { joints, .. }
-            | Torque::PdGravity { joints, .. }
-            | Torque::Impedance(HeldFrame { joints, .. })
-            | Torque::TrackingPd { joints, .. }
-            | Torque::Table { joints, .. } => Some(joints),
+            Torque::P { driven, .. }
+            | Torque::Pd { driven, .. }
+            | Torque::Pid { driven, .. }
+            | Torque::PdGravity { driven, .. }
+            | Torque::Impedance(HeldFrame { driven, .. })
+            | Torque::TrackingPd { driven, .. }
+            | Torque::Table { driven, .. } => Some(driven),
         }
     }
 
@@ -117,45 +117,44 @@ impl Torque {
     pub fn law<'a>(&'a self, ground: &'a Ground<'a>, layout: &'a Layout, initial: &Initial) -> Law<'a> {
         let mechanism = ground.mechanism();
         let positions =
-            |joints: &[usize], values: &[f64]| spread(&layout.coordinates_of(joints), values, &layout.coordinates);
-        let whole =
-            |joints: &[usize], values: &[f64]| spread(&layout.velocities_of(joints), values, &layout.velocities);
+            |driven: &[usize], values: &[f64]| spread(&layout.coordinates_along(driven), values, &layout.coordinates);
+        let whole = |driven: &[usize], values: &[f64]| spread(driven, values, &layout.velocities);
         match self {
             Torque::Zero => Law::total(ZeroTorque),
-            Torque::P { joints, target, kp } => {
-                Law::total(Proportional { target: positions(joints, target), kp: whole(joints, kp) })
+            Torque::P { driven, target, kp } => {
+                Law::total(Proportional { target: positions(driven, target), kp: whole(driven, kp) })
             }
-            Torque::Pd { joints, target, kp, kd } => {
-                let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
-                Law::total(Pd { target: positions(joints, target), kp, kd })
+            Torque::Pd { driven, target, kp, kd } => {
+                let [kp, kd] = [kp, kd].map(|gains| whole(driven, gains));
+                Law::total(Pd { target: positions(driven, target), kp, kd })
             }
-            Torque::Pid { joints, target, kp, ki, kd, tracking_rate } => {
-                let [kp, ki, kd, tracking] = [kp, ki, kd, tracking_rate].map(|gains| whole(joints, gains));
-                let trajectory = SetPoint::new(mechanism, positions(joints, target));
+            Torque::Pid { driven, target, kp, ki, kd, tracking_rate } => {
+                let [kp, ki, kd, tracking] = [kp, ki, kd, tracking_rate].map(|gains| whole(driven, gains));
+                let trajectory = SetPoint::new(mechanism, positions(driven, target));
                 Law::total(Pid { trajectory, kp, ki, kd, tracking, integral: vec![0.0; layout.nv()] })
             }
-            Torque::PdGravity { joints, target, kp, kd, laden } => {
-                let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
-                let trajectory = SetPoint::new(mechanism, positions(joints, target));
+            Torque::PdGravity { driven, target, kp, kd, laden } => {
+                let [kp, kd] = [kp, kd].map(|gains| whole(driven, gains));
+                let trajectory = SetPoint::new(mechanism, positions(driven, target));
                 let law = PdGravity { mechanism: laden.as_deref().unwrap_or(mechanism), trajectory, kp, kd };
-                Law::total(Limited { law, limits: only(joints, layout) })
+                Law::total(Limited { law, limits: only(driven, layout) })
             }
             Torque::Impedance(held) => {
-                Law::total(Limited { law: held.law(mechanism, initial), limits: only(&held.joints, layout) })
+                Law::total(Limited { law: held.law(mechanism, initial), limits: only(&held.driven, layout) })
             }
-            Torque::Limited { law, joints, limits } => {
+            Torque::Limited { law, driven, limits } => {
                 let mut all = vec![f64::INFINITY; layout.nv()];
-                for (velocity, &limit) in layout.velocities_of(joints).into_iter().zip(limits) {
+                for (&velocity, &limit) in driven.iter().zip(limits) {
                     all[velocity] = limit;
                 }
                 Law::limited(law.law(ground, layout, initial), all)
             }
-            Torque::TrackingPd { joints, trajectory, kp, kd } => {
-                let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
+            Torque::TrackingPd { driven, trajectory, kp, kd } => {
+                let [kp, kd] = [kp, kd].map(|gains| whole(driven, gains));
                 Law::total(TrackingPd { trajectory: trajectory.spread(layout), kp, kd })
             }
             Torque::Computed { actuated, trajectory, kp, kd } if mechanism.model().loops.is_empty() => {
-                let [kp, kd] = [kp, kd].map(|gains| whole(&trajectory.joints, gains));
+                let [kp, kd] = [kp, kd].map(|gains| whole(&trajectory.velocities, gains));
                 let trajectory = trajectory.spread(layout);
                 if actuated.len() == layout.nv() {
                     return Law::total(ComputedTorque { mechanism, trajectory, kp, kd });
@@ -174,10 +173,10 @@ impl Torque {
     }
 }
 
-/// Limits that leave the joints `driven` alone and let nothing act on the others.
+/// Limits that leave the velocities `driven` alone and let nothing act on the others.
 fn only(driven: &[usize], layout: &Layout) -> Vec<f64> {
     let mut limits = vec![0.0; layout.nv()];
-    for velocity in layout.velocities_of(driven) {
+    for &velocity in driven {
         limits[velocity] = f64::INFINITY;
     }
     limits

@@ -5,9 +5,9 @@ use redysim_toml::{Key, Kind, Message, Reader};
 
 use super::faults::{not_prescribed, nothing_actuated, prescribed, underactuated, unfollowed};
 use super::{HeldFrame, Torque, payload};
-use crate::layout::Joint;
+use crate::scenario::chosen::chosen;
 use crate::scenario::forces::Forces;
-use crate::scenario::joints::{Quantity, limits, some, values};
+use crate::scenario::joints::{Quantity, limits, values};
 use crate::scenario::keys;
 use crate::scenario::subject::{Subject, given};
 use crate::scenario::trajectory::Prescribed;
@@ -33,13 +33,13 @@ pub(super) struct Source<'s, 'a, 'f> {
     pub(super) subject: &'s Subject<'s>,
     /// The scenario's trajectory, if it has one; `None` if that is invalid.
     trajectory: Option<Option<&'s Prescribed>>,
-    /// The joints that follow it whatever force it takes: no law drives them.
+    /// The velocities that follow it whatever force it takes: no law drives them.
     prescribed: &'s [usize],
 }
 
-/// The limits of the forces on some joints.
+/// The limits of the forces along some velocities.
 struct Limits {
-    joints: Vec<usize>,
+    driven: Vec<usize>,
     /// `None` without the key `limits`.
     forces: Option<Vec<f64>>,
 }
@@ -48,7 +48,7 @@ impl Limits {
     /// The law within these limits.
     fn of(self, law: Torque) -> Torque {
         match self.forces {
-            Some(limits) => Torque::Limited { law: Box::new(law), joints: self.joints, limits },
+            Some(limits) => Torque::Limited { law: Box::new(law), driven: self.driven, limits },
             None => law,
         }
     }
@@ -56,7 +56,7 @@ impl Limits {
 
 impl Torque {
     /// Reads the table `torque`; without one, nothing drives the joints. `trajectory` is `None` if it is invalid, which
-    /// has been reported. The joints `prescribed` follow it whatever force it takes.
+    /// has been reported. The velocities `prescribed` follow it whatever force it takes.
     pub fn read(
         reader: &mut Reader<'_, '_>,
         subject: &Subject<'_>,
@@ -71,46 +71,45 @@ impl Torque {
 
 impl<'s> Source<'s, '_, '_> {
     fn p(mut self) -> Option<Torque> {
-        let joints = self.driven(self.subject.actuated())?;
-        let [target, kp] = [self.targets(&joints), self.gains(&keys::KP, &joints)];
-        let limits = self.limits(&joints)?;
-        Some(limits.of(Torque::P { joints, target: target?, kp: kp? }))
+        let driven = self.driven()?;
+        let [target, kp] = [self.targets(&driven), self.gains(&keys::KP, &driven)];
+        let limits = self.limits(&driven)?;
+        Some(limits.of(Torque::P { driven, target: target?, kp: kp? }))
     }
 
     fn pd(mut self) -> Option<Torque> {
-        let joints = self.driven(self.subject.actuated())?;
-        let [target, kp, kd] = [self.targets(&joints), self.gains(&keys::KP, &joints), self.gains(&keys::KD, &joints)];
-        let limits = self.limits(&joints)?;
-        Some(limits.of(Torque::Pd { joints, target: target?, kp: kp?, kd: kd? }))
+        let driven = self.driven()?;
+        let [target, kp, kd] = [self.targets(&driven), self.gains(&keys::KP, &driven), self.gains(&keys::KD, &driven)];
+        let limits = self.limits(&driven)?;
+        Some(limits.of(Torque::Pd { driven, target: target?, kp: kp?, kd: kd? }))
     }
 
     fn pid(mut self) -> Option<Torque> {
-        let joints = self.driven(self.subject.actuated())?;
-        let target = self.targets(&joints);
-        let [kp, ki, kd] = [keys::KP, keys::KI, keys::KD].map(|key| self.gains(&key, &joints));
+        let driven = self.driven()?;
+        let target = self.targets(&driven);
+        let [kp, ki, kd] = [keys::KP, keys::KI, keys::KD].map(|key| self.gains(&key, &driven));
         let layout = self.subject.layout;
-        let of = layout.velocities_of(&joints);
-        let rate = values(&mut self.reader, &keys::TRACKING_RATE, Quantity::TrackingRate, layout, &of);
-        let limits = self.limits(&joints)?;
+        let rate = values(&mut self.reader, &keys::TRACKING_RATE, Quantity::TrackingRate, layout, &driven);
+        let limits = self.limits(&driven)?;
         let (kp, ki, kd) = (kp?, ki?, kd?);
         let tracking_rate = rate.value_or(tracking_rates(&kp, &ki, &kd))?;
-        Some(limits.of(Torque::Pid { joints, target: target?, kp, ki, kd, tracking_rate }))
+        Some(limits.of(Torque::Pid { driven, target: target?, kp, ki, kd, tracking_rate }))
     }
 
     fn pd_gravity(mut self) -> Option<Torque> {
         self.expect_tree("pd-gravity")?;
-        let joints = self.driven(self.subject.actuated())?;
-        let [target, kp, kd] = [self.targets(&joints), self.gains(&keys::KP, &joints), self.gains(&keys::KD, &joints)];
+        let driven = self.driven()?;
+        let [target, kp, kd] = [self.targets(&driven), self.gains(&keys::KP, &driven), self.gains(&keys::KD, &driven)];
         let laden = payload::read(&mut self.reader, self.subject.model);
-        let limits = self.limits(&joints)?;
-        Some(limits.of(Torque::PdGravity { joints, target: target?, kp: kp?, kd: kd?, laden: laden? }))
+        let limits = self.limits(&driven)?;
+        Some(limits.of(Torque::PdGravity { driven, target: target?, kp: kp?, kd: kd?, laden: laden? }))
     }
 
     fn impedance(mut self) -> Option<Torque> {
         self.expect_tree("impedance")?;
-        let joints = self.driven(self.subject.actuated())?;
-        let limits = self.limits(&joints);
-        let held = HeldFrame::read(&mut self.reader, self.subject.model, joints);
+        let driven = self.driven()?;
+        let limits = self.limits(&driven);
+        let held = HeldFrame::read(&mut self.reader, self.subject.model, driven);
         Some(limits?.of(Torque::Impedance(held?)))
     }
 
@@ -126,63 +125,62 @@ impl<'s> Source<'s, '_, '_> {
         })
     }
 
-    /// The limits of the forces on `joints`.
-    fn limits(&mut self, joints: &[usize]) -> Option<Limits> {
-        let force = |joint: usize| self.subject.model.moving_links().nth(joint)?.range.first()?.force;
-        let field = limits(&mut self.reader, &keys::LIMITS, self.subject.layout, joints, force);
+    /// The limits of the forces along the velocities `driven`.
+    fn limits(&mut self, driven: &[usize]) -> Option<Limits> {
+        let Subject { layout, model, .. } = self.subject;
+        let force = |velocity: usize| {
+            let link = model.moving_links().nth(layout.velocities[velocity].joint)?;
+            link.range.get(velocity - layout.joint_of(velocity).v.start)?.force
+        };
+        let field = limits(&mut self.reader, &keys::LIMITS, layout, driven, force);
         let forces = if field.is_missing() { None } else { Some(field.value()?.clone()) };
-        Some(Limits { joints: joints.to_vec(), forces })
+        Some(Limits { driven: driven.to_vec(), forces })
     }
 
     fn tracking_pd(mut self) -> Option<Torque> {
         let trajectory = self.followed()?;
-        let actuated = self.subject.actuated();
-        let usual = trajectory.joints.iter().copied().filter(|joint| actuated.contains(joint)).collect();
-        let joints = self.driven(usual)?;
-        let [kp, kd] = [self.gains(&keys::KP, &joints), self.gains(&keys::KD, &joints)];
-        if let Some(&joint) = joints.iter().find(|joint| !trajectory.joints.contains(joint)) {
-            return not_prescribed(&mut self.reader, &self.subject.joints()[joint]);
+        let follows = |velocity: &usize| trajectory.velocities.contains(velocity);
+        let is_usual = |velocity: &usize| follows(velocity) && !self.prescribed.contains(velocity);
+        let usual = self.subject.actuated().into_iter().filter(is_usual).collect();
+        let driven = self.driven_among(usual, "no joint that the trajectory prescribes")?;
+        let [kp, kd] = [self.gains(&keys::KP, &driven), self.gains(&keys::KD, &driven)];
+        let missing: Vec<usize> = driven.iter().copied().filter(|velocity| !follows(velocity)).collect();
+        if !missing.is_empty() {
+            return not_prescribed(&mut self.reader, self.subject.layout, &missing);
         }
-        if joints.is_empty() {
-            return nothing_actuated(&mut self.reader);
-        }
-        let limits = self.limits(&joints)?;
-        Some(limits.of(Torque::TrackingPd { joints, trajectory: trajectory.clone(), kp: kp?, kd: kd? }))
+        let limits = self.limits(&driven)?;
+        Some(limits.of(Torque::TrackingPd { driven, trajectory: trajectory.clone(), kp: kp?, kd: kd? }))
     }
 
     fn computed_torque(mut self) -> Option<Torque> {
         let trajectory = self.followed()?;
-        let [kp, kd] = [keys::KP, keys::KD].map(|key| self.gains(&key, &trajectory.joints));
-        let actuated = self.subject.layout.actuated_velocities();
-        let joints = self.subject.joints();
-        if let Some(&joint) = self.prescribed.first() {
-            return prescribed(&mut self.reader, "computed torque moves it too", &joints[joint]);
+        let [kp, kd] = [keys::KP, keys::KD].map(|key| self.gains(&key, &trajectory.velocities));
+        let (layout, actuated) = (self.subject.layout, self.subject.actuated());
+        if !self.prescribed.is_empty() {
+            return prescribed(&mut self.reader, "computed torque moves it too", layout, self.prescribed);
         }
-        if !self.subject.loops() && joints.iter().any(|joint| !joint.actuated) {
-            // The joints without an actuator follow from the dynamics.
-            let drives = |joint: &Joint| joint.v.clone().any(|velocity| actuated.contains(&velocity));
-            let wrong = joints.iter().enumerate().find(|(index, joint)| match trajectory.joints.contains(index) {
-                true => !joint.actuated,
-                false => drives(joint),
-            });
-            if let Some((_, joint)) = wrong {
-                return underactuated(&mut self.reader, self.subject.layout, joint);
+        if !self.subject.loops() && actuated.len() < layout.nv() {
+            // The velocities without an actuator follow from the dynamics.
+            let is_prescribed = |velocity: &usize| trajectory.velocities.contains(velocity);
+            let idle: Vec<usize> = actuated.iter().copied().filter(|velocity| !is_prescribed(velocity)).collect();
+            if !idle.is_empty() || trajectory.velocities.len() > actuated.len() {
+                return underactuated(&mut self.reader, layout, (&trajectory.velocities, &idle));
             }
         } else if let Err((fault, help)) = trajectory.check_joints(self.subject) {
             let title = format!("{}: {fault}, and computed torque moves it whole", self.reader.item());
             return self.reader.error_of_table(Message { title, label: "not with this trajectory".into(), help });
         }
-        let limits = self.limits(&self.subject.actuated())?;
+        let limits = self.limits(&actuated)?;
         Some(limits.of(Torque::Computed { actuated, trajectory: trajectory.clone(), kp: kp?, kd: kd? }))
     }
 
     fn table(mut self) -> Option<Torque> {
-        let joints = self.driven(self.subject.actuated())?;
+        let driven = self.driven()?;
         let forces = self
             .subject
-            .table(&mut self.reader, &keys::FORCE_FILE, |table| Forces::of(table, self.subject.layout, &joints))?;
-        let limits = self.limits(&joints)?;
-        Some(limits.of(Torque::Table { joints, forces }))
+            .table(&mut self.reader, &keys::FORCE_FILE, |table| Forces::of(table, self.subject.layout, &driven))?;
+        let limits = self.limits(&driven)?;
+        Some(limits.of(Torque::Table { driven, forces }))
     }
 
     /// The motion that the law follows.
@@ -190,35 +188,46 @@ impl<'s> Source<'s, '_, '_> {
         self.trajectory?.or_else(|| unfollowed(&mut self.reader))
     }
 
-    /// The joints that the law drives, by default `usual`.
-    fn driven(&mut self, usual: Vec<usize>) -> Option<Vec<usize>> {
-        let field = some(&mut self.reader, &keys::DRIVEN, self.subject.joints());
-        if let Some(joint) = field.value().and_then(|named| named.iter().find(|joint| self.prescribed.contains(joint)))
-        {
-            return prescribed(&mut self.reader, "the torque law drives it", &self.subject.joints()[*joint]);
+    /// The velocities that the law drives, by default those with an actuator that do not follow the trajectory.
+    fn driven(&mut self) -> Option<Vec<usize>> {
+        let follows = |velocity: &usize| self.prescribed.contains(velocity);
+        let usual = self.subject.actuated().into_iter().filter(|velocity| !follows(velocity)).collect();
+        let of_none = if self.prescribed.is_empty() { "no joint" } else { "no joint that is not prescribed" };
+        self.driven_among(usual, of_none)
+    }
+
+    /// The velocities that the law drives, by default `usual`; a message about an empty default begins with `of_none`.
+    fn driven_among(&mut self, usual: Vec<usize>, of_none: &str) -> Option<Vec<usize>> {
+        let layout = self.subject.layout;
+        let field = chosen(&mut self.reader, &keys::DRIVEN, layout);
+        let Some(named) = field.spanned() else {
+            return match field.is_missing() && usual.is_empty() {
+                true => nothing_actuated(&mut self.reader, of_none),
+                false => field.value_or(usual),
+            };
+        };
+        let follows = |velocity: &usize| self.prescribed.contains(velocity);
+        let both: Vec<usize> = named.get_ref().iter().copied().filter(follows).collect();
+        if !both.is_empty() {
+            return prescribed(&mut self.reader, "the torque law drives it", layout, &both);
         }
-        let passive = |joint: &&usize| !self.subject.joints()[**joint].actuated;
-        if let Some(named) = field.spanned()
-            && let Some(&joint) = named.get_ref().iter().find(passive)
-        {
-            let joint = &self.subject.joints()[joint];
-            let (item, name, lacking) = (self.reader.item(), &joint.name, self.subject.layout.lacking_actuators(joint));
+        if let Some((name, lacking)) = layout.lacking_actuators(named.get_ref()) {
             let message = Message {
-                title: format!("{item}: the torque law drives the joint `{name}`, which {lacking}"),
+                title: format!("{}: the torque law drives {name}, which {lacking}", self.reader.item()),
                 label: "one of these".into(),
                 help: "leave it out, or give it an actuator; keep it if the law stands for a spring or a damper".into(),
             };
             self.reader.warning_at(named.span(), message);
         }
-        field.value_or(usual.into_iter().filter(|joint| !self.prescribed.contains(joint)).collect())
+        field.value().cloned()
     }
 
-    fn targets(&mut self, joints: &[usize]) -> Option<Vec<f64>> {
-        self.of(&keys::TARGET, Quantity::Coordinate, &self.subject.layout.coordinates_of(joints))
+    fn targets(&mut self, driven: &[usize]) -> Option<Vec<f64>> {
+        self.of(&keys::TARGET, Quantity::Coordinate, &self.subject.layout.coordinates_along(driven))
     }
 
-    fn gains(&mut self, key: &Key, joints: &[usize]) -> Option<Vec<f64>> {
-        self.of(key, Quantity::Gain, &self.subject.layout.velocities_of(joints))
+    fn gains(&mut self, key: &Key, driven: &[usize]) -> Option<Vec<f64>> {
+        self.of(key, Quantity::Gain, driven)
     }
 
     /// What stands under `key` for `of`, indices of coordinates or velocities.
