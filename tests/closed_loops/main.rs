@@ -17,6 +17,7 @@ mod hybrid;
 mod inverse;
 mod massless_links;
 mod mechanisms;
+mod mimic;
 mod motion;
 mod own_closure;
 mod random_trees;

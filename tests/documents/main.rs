@@ -15,5 +15,6 @@ mod ci;
 mod counts;
 mod figures;
 mod floating_and_walking;
+mod heavy_top;
 mod index;
 mod packages;

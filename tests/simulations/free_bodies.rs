@@ -1,18 +1,16 @@
-//! Bodies on spherical and free joints in motion: free ones against Jacobi's elliptic functions, tops against their
-//! integrals and steady precession, a floating arm by the conservation of momentum.
+//! Bodies on spherical and free joints in motion: tops against their integrals and steady precession, a floating arm by the
+//! conservation of momentum, and the lengths of quaternions.
 #![cfg(feature = "generic")]
 
-use crate::common::elliptic::jacobi;
 use crate::common::methods::{WithMethod, every_adaptive, every_fixed};
 use crate::common::models::generic;
-use crate::common::quadrature::integral;
 use core::ops::ControlFlow;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use redysim::Real;
 use redysim::generic::Inertia;
 use redysim::{
-    Dop8, Dop853, Event, ForwardSimulation, Gauss4, Gauss6, Integrator, LengthMismatch, LinkState, Occurrence, Ode,
-    Ode4, Ode45, Radau5, SimulationState, ZeroTorque, redysim,
+    Dop853, Event, ForwardSimulation, Gauss4, Gauss6, Integrator, LengthMismatch, LinkState, Occurrence, Ode, Ode4,
+    Ode45, Radau5, ZeroTorque, redysim,
 };
 
 redysim! {
@@ -33,118 +31,17 @@ redysim! {
     );
 }
 
-/// The tensor about the joint's origin of a body: that about the centre of mass and the mass there.
-fn about_origin(mass: f64, com: [f64; 3], inertia: Inertia) -> Matrix3<f64> {
-    let com = Vector3::from(com);
-    tensor(inertia) + mass * (Matrix3::identity() * com.norm_squared() - com * com.transpose())
-}
-
 /// A rotation about an axis, 0 for x to 2 for z.
 pub fn turn(axis: usize, angle: f64) -> Matrix3<f64> {
     *Rotation3::from_axis_angle(&Unit::new_unchecked(Vector3::ith(axis, 1.0)), angle).matrix()
 }
 
-fn tensor(Inertia { xx, yy, zz, xy, yz, xz }: Inertia) -> Matrix3<f64> {
+pub fn tensor(Inertia { xx, yy, zz, xy, yz, xz }: Inertia) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
 pub fn rotation(link: &LinkState<f64>) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| link.rotation[i][j])
-}
-
-#[test]
-fn the_elliptic_functions_are_those_of_the_tables() {
-    // Circular functions for k = 0; k² = 1/2 in 30 digits, rounded.
-    let [sn, cn, dn] = jacobi(0.7, 1.0);
-    assert!((sn - 0.7_f64.sin()).abs() < 1e-15 && (cn - 0.7_f64.cos()).abs() < 1e-15 && dn == 1.0);
-    let found = jacobi(1.0, 0.5_f64.sqrt());
-    for (found, expected) in found.iter().zip(SN_CN_DN_OF_ONE) {
-        assert!((found - expected).abs() < 1e-15, "{found} instead of {expected}");
-    }
-}
-
-const SN_CN_DN_OF_ONE: [f64; 3] = [0.803_001_824_895_643_9, 0.595_976_567_672_140_7, 0.823_161_001_631_596_3];
-
-/// Euler's equations without a moment: where the rotation about the middle axis is nearly all, the body turns over again
-/// and again (Landau and Lifshitz, *Mechanics*, § 37).
-#[test]
-fn a_body_without_a_moment_turns_over_as_jacobis_functions_do() {
-    let link = generic("spherical_pendulum").model().links[0].clone();
-    let mut parameters = Body::PARAMETERS;
-    parameters[..3].fill(0.0);
-    let body = Body::new(&parameters);
-    let tensor = about_origin(link.mass, link.com.0, link.inertia);
-    let eigen = tensor.symmetric_eigen();
-    let mut order = [0, 1, 2];
-    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-    let [i1, i2, i3] = order.map(|i| eigen.eigenvalues[i]);
-    let [e1, e2, _] = order.map(|i| eigen.eigenvectors.column(i).into_owned());
-    let principal = Matrix3::from_columns(&[e1, e2, e1.cross(&e2)]);
-
-    // An error of the start grows by 1/(1 − k²), fifty, until the body turns over.
-    let k_squared: f64 = 0.98;
-    let about_third = 8.0;
-    let about_first = about_third * (k_squared * (i3 - i2) * i3 / ((i2 - i1) * i1)).sqrt();
-    let rate = about_third * ((i3 - i2) * (i3 - i1) / (i1 * i2)).sqrt();
-    let about_second = about_first * (i1 * (i3 - i1) / (i2 * (i3 - i2))).sqrt();
-    let expected = |t: f64| {
-        let [sn, cn, dn] = jacobi(rate * t, (1.0 - k_squared).sqrt());
-        principal * Vector3::new(about_first * cn, about_second * sn, about_third * dn)
-    };
-    // Where sn is 0.999: near the middle axis.
-    let start = 3.2 / rate;
-    let (q, w) = ([0.1, -0.3, 0.5, 0.8], expected(start));
-    assert!(w.dot(&principal.column(1)) > 0.95 * w.norm(), "{w}");
-
-    let length = q.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
-    let q = q.map(|x| x / length);
-    let mut simulation = ForwardSimulation::new(&body, ZeroTorque);
-    let copy = simulation;
-    let state = simulation.state(&q, &w.into());
-    let attitude =
-        |state: &SimulationState<f64, [f64; 4], [f64; 3]>| rotation(&body.link_kinematics(&state.q, &state.v)[0]);
-    let momentum = |state: &SimulationState<f64, [f64; 4], [f64; 3]>| attitude(state) * tensor * Vector3::from(state.v);
-    let before = momentum(&copy.split(&state));
-    // The principal axes in axes whose z is along the momentum, turned about it by `about`: angles of the sequence zxz, of
-    // which the last two are those of the momentum in the principal axes.
-    let in_momentum = |t: f64, about: f64| {
-        let [m1, m2, m3]: [f64; 3] =
-            Matrix3::from_diagonal(&Vector3::new(i1, i2, i3)).tr_mul(&principal.tr_mul(&expected(t))).into();
-        turn(2, about) * turn(0, m1.hypot(m2).atan2(m3)) * turn(2, m1.atan2(m2))
-    };
-    let axes_of_momentum = attitude(&copy.split(&state)) * principal * in_momentum(start, 0.0).transpose();
-    // The rate about the momentum L: L (I₁ ω₁² + I₂ ω₂²)/(I₁² ω₁² + I₂² ω₂²).
-    let rate_about_momentum = |t: f64| {
-        let [w1, w2, _]: [f64; 3] = principal.tr_mul(&expected(t)).into();
-        before.norm() * (i1 * w1 * w1 + i2 * w2 * w2) / (i1 * i1 * w1 * w1 + i2 * i2 * w2 * w2)
-    };
-    let (mut about, mut misplaced) = (0.0, 0.0_f64);
-    let (mut worst, mut turned, mut turnovers, mut side) = (0.0_f64, 0.0_f64, 0, 1.0);
-    let on_step = |step: &redysim::Step<'_, f64, _>| {
-        let (t, state) = step.end();
-        let now = copy.split(state);
-        let v = Vector3::from(now.v);
-        worst = Real::maximum(worst, (v - expected(t)).norm());
-        turned = turned.max((momentum(&now) - before).norm() / before.norm());
-        about += integral(rate_about_momentum, step.start().0, t);
-        let placed = axes_of_momentum * in_momentum(t, about) * principal.transpose();
-        misplaced = misplaced.max((attitude(&now) - placed).amax());
-        let along = v.dot(&principal.column(1));
-        if along * side < -0.5 * about_second {
-            (turnovers, side) = (turnovers + 1, -side);
-        }
-    };
-    // Of order 8, with steps so short that roundings are left.
-    let method = Dop8::new(2.0_f64.powi(-8));
-    method.each_step(&mut simulation, (start, start + 20.0), state, on_step).expect("it turns for 20 s");
-    println!("error {worst:.1e} of {:.1} rad/s, momentum {turned:.1e}, {turnovers} turnovers", w.norm());
-    assert!(turnovers >= 3, "{turnovers}");
-    // Roundings of the moments, which differ by a twentieth, are phases of 46 rad and ten turnovers later.
-    assert!(worst <= 1e-11 * w.norm(), "{worst:e} rad/s");
-    assert!(turned <= 1e-12, "the angular momentum turned in space by {turned:e}");
-    println!("attitude {misplaced:.1e} after {about:.1} rad about the momentum");
-    // The same errors of the angular velocity, over 20 s.
-    assert!(misplaced <= 1e-11, "the attitude is off by {misplaced:e}");
 }
 
 /// A symmetric top on its tip: moments across and about its axis, and m g l.

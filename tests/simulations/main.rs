@@ -17,3 +17,4 @@ mod nodding_tops;
 mod stiff_control;
 mod tangent_errors;
 mod trajectories_in_space;
+mod turning_over;

@@ -3,4 +3,5 @@
 
 pub mod extrapolation;
 pub mod floating;
+pub mod heavy_top;
 pub mod trot;
