@@ -14,8 +14,8 @@ CALLS_INDIRECTLY = re.compile(r"^(?:\w+ )?callq?\s+\*(\S+)")
 READS = re.compile(r"\(%rip\).*# ([0-9a-f]+)")
 # An instruction that changes a register, but for `pop`, which gives a caller its own back: what it reads, and the register.
 CHANGES = re.compile(r"^(?!cmp|test|bt|push|pop)\w+\s+(?:(.*),)?(%r\w+)(?:\s+#.*)?$")
-# An address that the loader writes into memory: where, and that of a function here or the name of one elsewhere.
-RELOCATION = re.compile(r"^([0-9a-f]+) R_\S+\s+(?:\*ABS\*\+0x([0-9a-f]+))?")
+# An address that the loader writes into memory: where, and the address itself or the name of a function.
+RELOCATION = re.compile(r"^([0-9a-f]+) R_\S+\s+(?:\*ABS\*\+0x([0-9a-f]+)|([^\s@+]+))")
 
 
 class Function:
@@ -42,9 +42,10 @@ class MachineCode:
         self.functions = [function for _, function in found]
         self.known_starts = set(self.starts)
         # What the loader writes: the address of a function by its place, `None` if it is one of another library.
+        by_name = {function.name: start for start, function in found}
         relocations = filter(None, map(RELOCATION.match, lines_of([objdump, "--dynamic-reloc", path])))
-        self.pointers = {int(place, 16): address and int(address, 16)
-                         for place, address in (relocation.groups() for relocation in relocations)}
+        self.pointers = {int(place, 16): int(address, 16) if address else by_name.get(name)
+                         for place, address, name in (relocation.groups() for relocation in relocations)}
 
     def named(self, prefix):
         """The functions whose names begin with `prefix`, in the order of their names."""
