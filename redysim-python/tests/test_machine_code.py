@@ -58,8 +58,8 @@ def test_code_for_one_state_has_256_bits_and_lanes_have_512(model, tmp_path, mon
     wide.write_text(WIDE)
     wide.chmod(0o755)
     every_without, arithmetic_without = wide_instructions(library(model, wide, tmp_path / "wide", monkeypatch))
-    # Sines and cosines are inlined, but for those of large angles.
-    single = [name for name in every if name.startswith("mechanism_") or "hard" in name]
+    # Sines and cosines are inlined, but for the slow path.
+    single = [name for name in every if name.startswith("mechanism_") or "slow" in name]
     assert {"mechanism_inverse_dynamics", "redysim_slow_sin_cos"} < set(single)
     assert {name: every[name] for name in single if every[name] > 0} == {}
     # Functions in lanes, and what puts states into lanes, with no less of 512 bits than GCC chooses by itself.
