@@ -24,7 +24,6 @@ pub use record::{GroundSample, Record, Sample, Sink};
 pub use run::{Ending, Run};
 pub use summary::{Ended, Outcome, Summary};
 pub use tables::{Format, Quantities, Row};
-pub use touch_down::TouchDown;
 
 /// Where results go, and how.
 #[derive(clap::Args)]

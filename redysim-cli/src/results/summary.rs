@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use redysim_runtime::Statistics;
+use redysim_runtime::{ContactEvent, Statistics};
 
+use super::Balance;
 use super::momentum::MomentumDrift;
-use super::{Balance, TouchDown};
 use crate::failure::Failure;
 use crate::number::{all_digits, counted, size};
 use crate::scenario::Dynamics;
@@ -22,7 +22,7 @@ pub struct Outcome {
     /// The largest position residual of a loop, m (or a sine), if there are loops.
     pub position_residual: Option<f64>,
     /// How many contacts there are, and their touch-downs, if there are contacts.
-    pub contacts: Option<(usize, Vec<TouchDown>)>,
+    pub contacts: Option<(usize, Vec<ContactEvent<f64>>)>,
 }
 
 /// How a run ended.

@@ -1,19 +1,10 @@
 //! When and where contacts touched down: the table `touch_downs.csv`.
 
+use redysim_runtime::ContactEvent;
+
 use super::names;
 use crate::failure::Failure;
 use crate::table::{self, Column};
-
-/// A contact has begun.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TouchDown {
-    /// Which one, counted from 0 in the order of `contacts.csv`.
-    pub contact: usize,
-    /// When, s.
-    pub t: f64,
-    /// Where its frame was, m, in the base frame.
-    pub place: [f64; 3],
-}
 
 /// The symbol of the column of contacts, and those of the places.
 pub const CONTACT: &str = "contact";
@@ -23,8 +14,8 @@ pub const PLACE: [&str; 3] = ["x", "y", "z"];
 ///
 /// # Errors
 /// If a number is infinite or NaN.
-pub fn to_csv(touch_downs: &[TouchDown]) -> Result<Vec<u8>, Failure> {
-    let column = |symbol: &str, unit: &str, value: &dyn Fn(&TouchDown) -> f64| Column {
+pub fn to_csv(touch_downs: &[ContactEvent<f64>]) -> Result<Vec<u8>, Failure> {
+    let column = |symbol: &str, unit: &str, value: &dyn Fn(&ContactEvent<f64>) -> f64| Column {
         symbol: symbol.into(),
         name: String::new(),
         unit: unit.into(),

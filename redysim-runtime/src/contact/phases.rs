@@ -26,6 +26,8 @@ pub struct ContactEvent<S> {
     pub t: S,
     /// Whether it has begun (touch-down) or ended (lift-off).
     pub touching: bool,
+    /// The origin of its frame then, m, in the base frame.
+    pub place: [S; 3],
 }
 
 impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
@@ -147,7 +149,7 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
     /// Fixes the state of each contact as the position has it.
     fn fix<Y: Vector<S>>(&self, y: &Y, t: S, mut on_event: impl FnMut(ContactEvent<S>)) {
         self.each_in(y, |index, contact, state| {
-            contact.set((index, t), contact.gap(state) <= S::zero(), &mut on_event);
+            contact.set((index, t, state.origin), contact.gap(state) <= S::zero(), &mut on_event);
         });
     }
 
@@ -157,18 +159,19 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
         let limit = self.margin(y).maximum(S::zero());
         self.each_in(y, |index, contact, state| {
             if contact.margin(state) <= limit {
-                contact.set((index, t), contact.phase.get() != Phase::Closed, &mut on_event);
+                contact.set((index, t, state.origin), contact.phase.get() != Phase::Closed, &mut on_event);
             }
         });
     }
 }
 
 impl<S: Real, L: ContactLaw<S>> Contact<S, L> {
-    /// Fixes whether contact number `index` is closed from `t` on, and reports it if that is a change.
-    fn set(&self, (index, t): (usize, S), closed: bool, on_event: &mut impl FnMut(ContactEvent<S>)) {
+    /// Fixes whether contact number `contact`, whose frame is at `place`, is closed from `t` on, and reports it if that is a
+    /// change.
+    fn set(&self, (contact, t, place): (usize, S, [S; 3]), closed: bool, on_event: &mut impl FnMut(ContactEvent<S>)) {
         let before = self.phase.replace(if closed { Phase::Closed } else { Phase::Open });
         if closed != (before == Phase::Closed) {
-            on_event(ContactEvent { contact: index, t, touching: closed });
+            on_event(ContactEvent { contact, t, touching: closed, place });
         }
     }
 }

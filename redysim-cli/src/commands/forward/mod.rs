@@ -4,11 +4,10 @@ mod ground;
 mod growth;
 mod observer;
 mod system;
-mod touch_downs;
 
 use std::path::Path;
 
-use redysim_runtime::{IntegrationError, Stabilisation};
+use redysim_runtime::{ContactEvent, IntegrationError, Stabilisation};
 
 use crate::failure::Failure;
 use crate::interrupt;
@@ -18,7 +17,6 @@ use crate::scenario::{Dynamics, Forward, Ground, Integrator, Scenario, Tolerance
 use growth::{Gains, Growth};
 use observer::RunObserver;
 use system::System;
-use touch_downs::TouchDowns;
 
 /// Compute how a mechanism moves, and write it into a folder.
 #[derive(clap::Args)]
@@ -81,10 +79,14 @@ fn move_on<'a>(
     let mut system = System::new(scenario, forward, ground);
     let start = system.start(scenario, forward, quiet)?;
     warn_of_step(scenario, forward, &mut system, &start, record);
-    let touch_downs = TouchDowns::new(ground);
-    let mut observer = RunObserver::new(scenario, (forward, &touch_downs), record, &start)?;
+    let mut observer = RunObserver::new(scenario, (forward, ground), record, &start)?;
     let (integrator, interval, stops) = (&forward.integrator, forward.span.interval(), forward.stops());
-    let on_event = |event| touch_downs.see(event);
+    let mut touch_downs = Vec::new();
+    let on_event = |event: ContactEvent<f64>| {
+        if event.touching {
+            touch_downs.push(event);
+        }
+    };
     let solution = integrator.run(ground, system.ode(), (interval, &stops), start, &mut observer, on_event);
     let RunObserver { steps, position_residual, growth, failed, .. } = observer;
     let ended = match (&solution, failed) {
@@ -112,7 +114,7 @@ fn move_on<'a>(
         steps: Some(steps),
         statistics: solution.ok().map(|solution| solution.statistics),
         position_residual: scenario.loops().then_some(position_residual),
-        contacts: Some((ground.contacts().len(), touch_downs.into_list())).filter(|(contacts, _)| *contacts > 0),
+        contacts: Some((ground.contacts().len(), touch_downs)).filter(|(contacts, _)| *contacts > 0),
     };
     Ok((outcome, growth))
 }

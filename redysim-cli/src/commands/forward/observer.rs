@@ -8,11 +8,10 @@ use redysim_runtime::{IntegrationError, Ode, SimulationState, Step};
 
 use super::growth::{Distances, Growth};
 use super::system::System;
-use super::touch_downs::TouchDowns;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::results::Record;
-use crate::scenario::{Forward, Scenario};
+use crate::scenario::{Forward, Ground, Scenario};
 
 /// Writes the requested instants, and follows energy and position residuals.
 pub struct RunObserver<'a, 'r> {
@@ -21,7 +20,6 @@ pub struct RunObserver<'a, 'r> {
     record: &'r mut Record<'a>,
     /// The integrator has another.
     system: System<'a>,
-    touch_downs: &'r TouchDowns<'a>,
     /// Accepted steps so far.
     pub steps: u64,
     /// The largest component of the loops' residual so far, m.
@@ -40,17 +38,16 @@ impl<'a, 'r> RunObserver<'a, 'r> {
     /// If it cannot be written.
     pub fn new(
         scenario: &'a Scenario,
-        (forward, touch_downs): (&'a Forward, &'r TouchDowns<'a>),
+        (forward, ground): (&'a Forward, &'a Ground<'a>),
         record: &'r mut Record<'a>,
         start: &Vec<f64>,
     ) -> Result<Self, Failure> {
-        let system = System::new(scenario, forward, touch_downs.ground());
+        let system = System::new(scenario, forward, ground);
         let mut observer = RunObserver {
             scenario,
             forward,
             record,
             system,
-            touch_downs,
             steps: 0,
             position_residual: 0.0,
             distances: Distances::new(),
@@ -69,7 +66,6 @@ impl<'a, 'r> RunObserver<'a, 'r> {
     fn see(&mut self, t: f64, state: &Vec<f64>) {
         let SimulationState { q, v, actuator_energy } = self.system.split(t, state);
         self.record.see(&q, &v, actuator_energy);
-        self.touch_downs.reach(&q);
         self.position_residual = self.position_residual.max(self.scenario.position_residual(&q));
         if self.growth.is_none() {
             let from_nowhere = self.record.balance().wrong_part().is_some();
