@@ -35,6 +35,7 @@
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod c_compiler;
+mod carriers;
 mod closed;
 mod commands;
 mod data;

@@ -3,6 +3,7 @@
 use redysim_model::{JointKind, Link, Model};
 use serde::Serialize;
 
+use crate::carriers::{carriers, stands_on_ground};
 use crate::failure::Failure;
 
 /// How the camera moves while a run is played.
@@ -37,30 +38,20 @@ impl Camera {
 pub fn moving_base(model: &Model) -> Option<usize> {
     let bases = (0..model.links.len()).filter(|&link| is_base(model, &model.links[link]));
     let carried =
-        |base: usize| (0..model.links.len()).filter(|&link| carriers(model, link).any(|by| by == base)).count();
+        |base: usize| (0..model.links.len()).filter(|&link| carriers(model, Some(link)).any(|by| by == base)).count();
     // `max_by_key` takes the last of equals, and the first one is meant.
     bases.rev().max_by_key(|&base| carried(base))
 }
 
 /// Whether a link moves freely over the ground or in space.
 fn is_base(model: &Model, link: &Link) -> bool {
-    matches!(link.joint, JointKind::Free | JointKind::Planar) && is_ground(model, link.parent)
-}
-
-/// Whether a link is the ground or fixed to it.
-fn is_ground(model: &Model, link: Option<usize>) -> bool {
-    link.is_none_or(|link| carriers(model, link).all(|by| model.links[by].joint == JointKind::Fixed))
-}
-
-/// The link and those that carry it, down to the ground.
-fn carriers(model: &Model, link: usize) -> impl Iterator<Item = usize> {
-    std::iter::successors(Some(link), |&link| model.links[link].parent)
+    matches!(link.joint, JointKind::Free | JointKind::Planar) && stands_on_ground(model, link)
 }
 
 /// The kinds of the joints that tie links to the ground, each once.
 fn joints_to_ground(model: &Model) -> String {
     let mut kinds: Vec<_> = Vec::new();
-    for link in model.links.iter().filter(|link| link.joint != JointKind::Fixed && is_ground(model, link.parent)) {
+    for link in model.links.iter().filter(|link| link.joint != JointKind::Fixed && stands_on_ground(model, link)) {
         let kind = format!("`{}`", link.joint.name());
         if !kinds.contains(&kind) {
             kinds.push(kind);

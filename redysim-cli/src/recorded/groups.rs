@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use redysim_model::{JointKind, Model};
 
+use crate::carriers::carriers;
 use crate::layout::Layout;
 
 /// Curves that can be followed in one coordinate system: arms have up to seven joints, and there are as many colours
@@ -80,7 +81,7 @@ impl Groups {
         let branches = cluster.clone();
         let is_free = |link: usize| model.links[link].joint == JointKind::Free;
         for each in &model.loops {
-            let [a, b] = [each.a.link, each.b.link].map(|link| carriers(model, link));
+            let [a, b] = [each.a.link, each.b.link].map(|link| moving_carriers(model, link));
             let tied = a.iter().filter(|link| !b.contains(link)).chain(b.iter().filter(|link| !a.contains(link)));
             tie(&mut cluster, &links, &tied.copied().filter(|&link| !is_free(link)).collect::<Vec<_>>());
         }
@@ -134,14 +135,13 @@ fn tie(cluster: &mut [usize], links: &[usize], tied: &[usize]) {
 }
 
 /// A link and those that carry it, as far as they move, up to the ground.
-fn carriers(model: &Model, link: Option<usize>) -> Vec<usize> {
-    let up = std::iter::successors(link, |&link| model.links[link].parent);
-    up.filter(|&link| model.links[link].dof() > 0).collect()
+fn moving_carriers(model: &Model, link: Option<usize>) -> Vec<usize> {
+    carriers(model, link).filter(|&link| model.links[link].dof() > 0).collect()
 }
 
 /// The moving link with which the branch of a moving link begins.
 fn first_of_branch(model: &Model, link: usize) -> usize {
-    let carrier = |link: usize| carriers(model, Some(link)).get(1).copied();
+    let carrier = |link: usize| moving_carriers(model, Some(link)).get(1).copied();
     let carried = |by: usize| {
         (0..model.links.len()).filter(|&other| model.links[other].dof() > 0 && carrier(other) == Some(by)).count()
     };

@@ -1,7 +1,9 @@
 //! The momentum of a mechanism, and how far it drifts where nothing outside acts on it.
 
-use redysim_model::{GenericMechanism, JointKind, Link};
+use redysim_model::{GenericMechanism, JointKind};
 use redysim_runtime::{CenterOfMass, MassCenter, Momentum, TotalMomentum};
+
+use crate::carriers::stands_on_ground;
 
 /// Linear momentum, N s, angular momentum about the origin of the base frame, N m s, and the centre of mass.
 pub fn about_base(mechanism: &GenericMechanism, q: &Vec<f64>, v: &Vec<f64>) -> (Momentum<f64>, CenterOfMass<f64>) {
@@ -39,7 +41,7 @@ impl MomentumDrift {
 pub fn floats(mechanism: &GenericMechanism) -> bool {
     let (model, tree) = (mechanism.model(), mechanism.tree());
     model.gravity.0 == [0.0; 3]
-        && model.moving_links().all(|link| link.joint == JointKind::Free || !stands_on_ground(mechanism, link))
+        && model.moving_links().all(|link| link.joint == JointKind::Free || !stands_on_ground(mechanism.model(), link))
         && tree.cuts.iter().all(|cut| cut.a.body.is_some() && cut.b.body.is_some())
         && tree.springs.iter().all(|spring| spring.a.body.is_some() && spring.b.body.is_some())
 }
@@ -50,15 +52,8 @@ pub fn is_held(mechanism: &GenericMechanism, tau: &[f64]) -> bool {
     mechanism.model().moving_links().any(|link| {
         let own = first..first + link.dof();
         first = own.end;
-        stands_on_ground(mechanism, link) && tau[own].iter().any(|force| *force != 0.0)
+        stands_on_ground(mechanism.model(), link) && tau[own].iter().any(|force| *force != 0.0)
     })
-}
-
-/// Whether nothing that moves carries a link.
-fn stands_on_ground(mechanism: &GenericMechanism, link: &Link) -> bool {
-    let links = &mechanism.model().links;
-    let mut carriers = std::iter::successors(link.parent, |&parent| links[parent].parent);
-    carriers.all(|carrier| links[carrier].joint == JointKind::Fixed)
 }
 
 #[cfg(test)]
