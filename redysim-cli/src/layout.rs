@@ -89,6 +89,48 @@ impl Joint {
     }
 }
 
+/// The coordinates of joints, or their velocities.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum StatePart {
+    Coordinates,
+    Velocities,
+}
+
+impl StatePart {
+    /// All of them.
+    pub fn components(self, layout: &Layout) -> &[Component] {
+        match self {
+            StatePart::Coordinates => &layout.coordinates,
+            StatePart::Velocities => &layout.velocities,
+        }
+    }
+
+    /// Those of a joint.
+    pub fn of_joint(self, joint: &Joint) -> Range<usize> {
+        match self {
+            StatePart::Coordinates => joint.q.clone(),
+            StatePart::Velocities => joint.v.clone(),
+        }
+    }
+
+    /// The other part.
+    pub fn other(self) -> StatePart {
+        match self {
+            StatePart::Coordinates => StatePart::Velocities,
+            StatePart::Velocities => StatePart::Coordinates,
+        }
+    }
+
+    /// Those with the name, or whose joint has it.
+    pub fn named(self, layout: &Layout, name: &str) -> Option<Range<usize>> {
+        if let Some(joint) = layout.joints.iter().find(|joint| joint.name == name) {
+            return Some(self.of_joint(joint));
+        }
+        let index = self.components(layout).iter().position(|component| component.name == name)?;
+        Some(index..index + 1)
+    }
+}
+
 impl Layout {
     /// The layout of a model.
     pub fn of(model: &Model) -> Self {
@@ -146,7 +188,9 @@ impl Layout {
             let joint = self.joint_of(velocity);
             let first = joint.q.start + velocity - joint.v.start;
             let changed = if joint.is_in_space() { joint.q.clone() } else { first..first + 1 };
-            coordinates.extend(changed.filter(|coordinate| !coordinates.contains(coordinate)).collect::<Vec<_>>());
+            if !coordinates.contains(&changed.start) {
+                coordinates.extend(changed);
+            }
         }
         coordinates
     }

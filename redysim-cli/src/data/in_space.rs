@@ -1,11 +1,9 @@
 //! Joints of several coordinates that a scenario file gives by one name, component by component.
 
-use std::ops::Range;
-
 use toml_edit::visit_mut::{self, VisitMut};
 use toml_edit::{InlineTable, Item, KeyMut, TableLike, Value};
 
-use crate::layout::{Component, Joint, Layout};
+use crate::layout::{Joint, Layout, StatePart};
 use crate::scenario::in_space::{Orientation, position_of};
 use crate::scenario::keys;
 
@@ -13,29 +11,22 @@ use crate::scenario::keys;
 pub struct InSpace<'a> {
     pub layout: &'a Layout,
     /// What the values at the place are for, if they are for components of joints.
-    pub of: Option<Of>,
+    pub of: Option<StatePart>,
 }
 
-/// What values are for.
-#[derive(Clone, Copy)]
-pub enum Of {
-    Coordinates,
-    Velocities,
-}
-
-const KEYS: [(&str, Of); 12] = [
-    (keys::Q.name, Of::Coordinates),
-    (keys::FROM.name, Of::Coordinates),
-    (keys::TO.name, Of::Coordinates),
-    (keys::POINTS.name, Of::Coordinates),
-    (keys::TARGET.name, Of::Coordinates),
-    (keys::V.name, Of::Velocities),
-    (keys::SPEED.name, Of::Velocities),
-    (keys::KP.name, Of::Velocities),
-    (keys::KI.name, Of::Velocities),
-    (keys::KD.name, Of::Velocities),
-    (keys::TRACKING_RATE.name, Of::Velocities),
-    (keys::LIMITS.name, Of::Velocities),
+const KEYS: [(&str, StatePart); 12] = [
+    (keys::Q.name, StatePart::Coordinates),
+    (keys::FROM.name, StatePart::Coordinates),
+    (keys::TO.name, StatePart::Coordinates),
+    (keys::POINTS.name, StatePart::Coordinates),
+    (keys::TARGET.name, StatePart::Coordinates),
+    (keys::V.name, StatePart::Velocities),
+    (keys::SPEED.name, StatePart::Velocities),
+    (keys::KP.name, StatePart::Velocities),
+    (keys::KI.name, StatePart::Velocities),
+    (keys::KD.name, StatePart::Velocities),
+    (keys::TRACKING_RATE.name, StatePart::Velocities),
+    (keys::LIMITS.name, StatePart::Velocities),
 ];
 
 impl VisitMut for InSpace<'_> {
@@ -57,15 +48,11 @@ impl VisitMut for InSpace<'_> {
 }
 
 impl InSpace<'_> {
-    fn expand(&self, of: Of, table: &mut dyn TableLike) {
+    fn expand(&self, of: StatePart, table: &mut dyn TableLike) {
         for joint in self.layout.joints.iter().filter(|joint| joint.q.len() > 1) {
-            let (components, range): (&[Component], Range<usize>) = match of {
-                Of::Coordinates => (&self.layout.coordinates, joint.q.clone()),
-                Of::Velocities => (&self.layout.velocities, joint.v.clone()),
-            };
             let Some(values) = table.get(&joint.name).and_then(|item| values(item, joint)) else { continue };
             table.remove(&joint.name);
-            for (component, value) in components[range].iter().zip(values) {
+            for (component, value) in of.components(self.layout)[of.of_joint(joint)].iter().zip(values) {
                 table.insert(&component.name, toml_edit::value(value));
             }
         }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use redysim_toml::words::{did_you_mean, nearest, quoted};
 use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader};
 
-use crate::layout::{Component, Layout};
+use crate::layout::{Component, Layout, StatePart};
 
 /// Some of the velocities, by their names: that of a joint stands for all velocities of it.
 pub fn chosen(reader: &mut Reader<'_, '_>, key: &Key, layout: &Layout) -> Field<Vec<usize>> {
@@ -17,10 +17,11 @@ pub fn chosen(reader: &mut Reader<'_, '_>, key: &Key, layout: &Layout) -> Field<
             let DeValue::String(name) = value.get_ref() else {
                 return reader.wrong_type(&path, value, "the name of a joint");
             };
-            let velocities = named(reader, value.span(), &path, name, layout)?;
+            let name = Name { text: name, place: value.span(), path: &path };
+            let velocities = named(reader, &name, layout)?;
             if let Some(again) = velocities.clone().find(|velocity| found.contains(velocity)) {
-                let title = match layout.joints.iter().any(|joint| joint.name == **name) && velocities.len() == 1 {
-                    true => format!("{}: `{path}` names the joint `{name}` again", reader.item()),
+                let title = match layout.joints.iter().any(|joint| joint.name == name.text) && velocities.len() == 1 {
+                    true => format!("{}: `{path}` names the joint `{}` again", reader.item(), name.text),
                     false => format!("{}: `{path}` names `{}` again", reader.item(), layout.velocities[again].name),
                 };
                 let help = "name each joint or velocity once".into();
@@ -40,22 +41,22 @@ pub fn chosen(reader: &mut Reader<'_, '_>, key: &Key, layout: &Layout) -> Field<
     })
 }
 
+/// A name in a scenario.
+pub struct Name<'n> {
+    pub text: &'n str,
+    /// Where it stands.
+    pub place: Range<usize>,
+    /// The key that it belongs to.
+    pub path: &'n KeyPath,
+}
+
 /// The velocities that have the name, or whose joint has it.
-fn named(
-    reader: &mut Reader<'_, '_>,
-    place: Range<usize>,
-    path: &KeyPath,
-    name: &str,
-    layout: &Layout,
-) -> Option<Range<usize>> {
-    if let Some(joint) = layout.joints.iter().find(|joint| joint.name == name) {
-        return Some(joint.v.clone());
+fn named(reader: &mut Reader<'_, '_>, name: &Name<'_>, layout: &Layout) -> Option<Range<usize>> {
+    if let Some(velocities) = StatePart::Velocities.named(layout, name.text) {
+        return Some(velocities);
     }
-    if let Some(velocity) = layout.velocities.iter().position(|velocity| velocity.name == name) {
-        return Some(velocity..velocity + 1);
-    }
-    if layout.coordinates.iter().any(|coordinate| coordinate.name == name) {
-        return not_a(Wanted::Velocity, reader, place, path, name, layout);
+    if StatePart::Coordinates.named(layout, name.text).is_some() {
+        return not_a(reader, StatePart::Velocities, name, layout);
     }
     let joints: Vec<&str> = layout.joints.iter().map(|joint| joint.name.as_str()).collect();
     let several: Vec<&Component> =
@@ -64,59 +65,36 @@ fn named(
     let single = several.first().map_or(String::new(), |velocity| {
         format!("; a velocity of a joint that has several is named as {}", quoted(&velocity.name))
     });
-    let help = format!("{}The joints are: {}{single}", did_you_mean(nearest(name, names)), joints.join(", "));
-    let title = format!("{}: unknown joint {}", reader.item(), quoted(name));
-    reader.error_at(place, Message { title, label: "unknown joint".into(), help })
+    let help = format!("{}The joints are: {}{single}", did_you_mean(nearest(name.text, names)), joints.join(", "));
+    let title = format!("{}: unknown joint {}", reader.item(), quoted(name.text));
+    reader.error_at(name.place.clone(), Message { title, label: "unknown joint".into(), help })
 }
 
-/// What a name must be of.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Wanted {
-    Coordinate,
-    Velocity,
-}
-
-/// Reports a name of a velocity that is not a coordinate, or of a coordinate that is not a velocity: one of a joint with a
-/// quaternion. Always `None`.
-pub fn not_a<T>(
-    wanted: Wanted,
-    reader: &mut Reader<'_, '_>,
-    place: Range<usize>,
-    path: &KeyPath,
-    name: &str,
-    layout: &Layout,
-) -> Option<T> {
-    let (all, others) = match wanted {
-        Wanted::Coordinate => (&layout.coordinates, &layout.velocities),
-        Wanted::Velocity => (&layout.velocities, &layout.coordinates),
-    };
-    let joint = others.iter().find(|other| other.name == name)?.joint;
-    let names: Vec<&str> = all.iter().filter(|own| own.joint == joint).map(|own| own.name.as_str()).collect();
-    let joint = &layout.joints[joint].name;
-    let (item, names) = (reader.item(), names.join(", "));
-    let (title, help) = match wanted {
-        Wanted::Coordinate => (
+/// Reports a name of a velocity where coordinates are `wanted`, or of a coordinate where velocities are: one of a joint with
+/// a quaternion. Always `None`.
+pub fn not_a<T>(reader: &mut Reader<'_, '_>, wanted: StatePart, name: &Name<'_>, layout: &Layout) -> Option<T> {
+    let Name { text, place, path } = name;
+    let found = wanted.other().named(layout, text)?.start;
+    let joint = &layout.joints[wanted.other().components(layout)[found].joint];
+    let names: Vec<&str> =
+        wanted.components(layout)[wanted.of_joint(joint)].iter().map(|own| own.name.as_str()).collect();
+    let (item, names, joint) = (reader.item(), names.join(", "), &joint.name);
+    let (title, help, label) = match wanted {
+        StatePart::Coordinates => (
             format!(
-                "{item}: `{path}` is for coordinates, but `{name}` is a velocity: the orientation of the joint `{joint}` \
+                "{item}: `{path}` is for coordinates, but `{text}` is a velocity: the orientation of the joint `{joint}` \
                  is a quaternion"
             ),
             format!(
                 "give the orientation as a whole, as in {joint} = {{ rpy = [0, \"10 deg\", 0] }}; the coordinates are {names}"
             ),
+            "not a coordinate",
         ),
-        Wanted::Velocity => (
-            format!("{item}: `{path}` is for velocities, but `{name}` is a coordinate of the joint `{joint}`"),
+        StatePart::Velocities => (
+            format!("{item}: `{path}` is for velocities, but `{text}` is a coordinate of the joint `{joint}`"),
             format!("its velocities are {names}"),
+            "not a velocity",
         ),
     };
-    reader.error_at(place, Message { title, label: format!("not a {}", wanted.name()), help })
-}
-
-impl Wanted {
-    fn name(self) -> &'static str {
-        match self {
-            Wanted::Coordinate => "coordinate",
-            Wanted::Velocity => "velocity",
-        }
-    }
+    reader.error_at(place.clone(), Message { title, label: label.into(), help })
 }

@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader, Spanned, Value};
 
-use super::chosen::{Wanted, not_a};
+use super::chosen::{Name, not_a};
 use super::in_space;
 use super::resolution::resolved;
-use crate::layout::{Component, Joint, Layout};
+use crate::layout::{Component, Layout, StatePart};
 
 /// What the values for joints are.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -31,19 +31,9 @@ impl Quantity {
         matches!(self, Quantity::Gain | Quantity::Limit | Quantity::TrackingRate)
     }
 
-    /// What the values are for.
-    fn wanted(self) -> Wanted {
-        if self == Quantity::Coordinate { Wanted::Coordinate } else { Wanted::Velocity }
-    }
-
-    /// All that the values may be for: coordinates, or velocities.
-    fn components(self, layout: &Layout) -> &[Component] {
-        if self == Quantity::Coordinate { &layout.coordinates } else { &layout.velocities }
-    }
-
-    /// Those of a joint.
-    fn of_joint(self, joint: &Joint) -> Range<usize> {
-        if self == Quantity::Coordinate { joint.q.clone() } else { joint.v.clone() }
+    /// What the values are for: coordinates, or velocities.
+    fn part(self) -> StatePart {
+        if self == Quantity::Coordinate { StatePart::Coordinates } else { StatePart::Velocities }
     }
 }
 
@@ -104,53 +94,33 @@ pub fn points(reader: &mut Reader<'_, '_>, key: &Key, layout: &Layout, of: &[usi
     })
 }
 
-/// The components that the name at `place` stands for, by their numbers: one, or all of a joint that has several.
-fn named<'l>(
-    reader: &mut Reader<'_, '_>,
-    place: Range<usize>,
-    path: &KeyPath,
-    name: &str,
-    (quantity, layout): (Quantity, &'l Layout),
-) -> Option<(Range<usize>, Option<&'l Joint>)> {
-    let components = quantity.components(layout).iter().enumerate();
-    let components = components.map(|(index, component)| (component.name.as_str(), (index..index + 1, None)));
-    let several = layout.joints.iter().filter(|joint| joint.q.len() > 1);
-    let joints = several.map(|joint| (joint.name.as_str(), (quantity.of_joint(joint), Some(joint))));
-    let names: Vec<_> = components.chain(joints).collect();
-    let found = names.iter().position(|(other, _)| *other == name);
-    let others = if quantity == Quantity::Coordinate { &layout.velocities } else { &layout.coordinates };
-    if found.is_none() && others.iter().any(|other| other.name == name) {
-        return not_a(quantity.wanted(), reader, place, path, name, layout);
+/// The components that have the name, or whose joint has it.
+fn named(reader: &mut Reader<'_, '_>, part: StatePart, name: &Name<'_>, layout: &Layout) -> Option<Range<usize>> {
+    if let Some(components) = part.named(layout, name.text) {
+        return Some(components);
     }
-    let indices: Vec<_> = names.iter().enumerate().map(|(index, (name, _))| (*name, index)).collect();
-    let index = reader.lookup(place, "joint", name, &indices)?;
-    Some(names[index].1.clone())
+    if part.other().named(layout, name.text).is_some() {
+        return not_a(reader, part, name, layout);
+    }
+    let several = layout.joints.iter().filter(|joint| joint.q.len() > 1).map(|joint| joint.name.as_str());
+    let names = part.components(layout).iter().map(|component| component.name.as_str()).chain(several);
+    let names: Vec<_> = names.enumerate().map(|(index, name)| (name, index)).collect();
+    reader.lookup(name.place.clone(), "joint", name.text, &names).map(|index| index..index + 1)
 }
 
 /// Reports a joint or a component that the values are not for. Always `None`.
-fn foreign<T>(
-    reader: &mut Reader<'_, '_>,
-    place: Range<usize>,
-    path: &KeyPath,
-    name: &str,
-    layout: &Layout,
-) -> Option<T> {
-    let what = if layout.joints.iter().any(|joint| joint.name == name) { "the joint " } else { "" };
-    reader.error_at(
-        place,
-        Message {
-            title: format!("{}: `{path}` has nothing to do with {what}`{name}`", reader.item()),
-            label: "not one of its joints".into(),
-            help: "leave it out, or name it among the `joints` here".into(),
-        },
-    )
+fn foreign<T>(reader: &mut Reader<'_, '_>, Name { text, place, path }: &Name<'_>, layout: &Layout) -> Option<T> {
+    let what = if layout.joints.iter().any(|joint| joint.name == *text) { "the joint " } else { "" };
+    let title = format!("{}: `{path}` has nothing to do with {what}`{text}`", reader.item());
+    let help = "leave it out, or name it among the `joints` here".into();
+    reader.error_at(place.clone(), Message { title, label: "not one of its joints".into(), help })
 }
 
 /// Reports a component that is given both by its own name and by that of its joint. Always `None`.
-fn again<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &KeyPath, name: &str) -> Option<T> {
-    let title = format!("{}: `{path}` gives `{name}` twice, once by itself and once with its joint", reader.item());
+fn again<T>(reader: &mut Reader<'_, '_>, Name { text, place, path }: &Name<'_>) -> Option<T> {
+    let title = format!("{}: `{path}` gives `{text}` twice, once by itself and once with its joint", reader.item());
     let help = "leave one of them out".into();
-    reader.error_at(place, Message { title, label: "given before".into(), help })
+    reader.error_at(place.clone(), Message { title, label: "given before".into(), help })
 }
 
 fn list(
@@ -177,7 +147,7 @@ fn unchecked(
     layout: &Layout,
     of: &[usize],
 ) -> Option<Vec<f64>> {
-    let components = quantity.components(layout);
+    let components = quantity.part().components(layout);
     match value.get_ref() {
         DeValue::Array(array) if array.len() != of.len() => {
             let names: Vec<_> = of.iter().map(|&index| components[index].name.as_str()).collect();
@@ -201,21 +171,23 @@ fn unchecked(
             let mut values: Vec<f64> = of.iter().map(|&index| missing(index)).collect();
             let mut given = vec![false; of.len()];
             let mut read = |(name, value): (&Spanned<Cow<'_, str>>, &Value<'_>)| {
-                let (range, whole) = named(reader, name.span(), path, name.get_ref(), (quantity, layout))?;
-                let place = |index: usize| of.iter().position(|&other| other == index);
-                let own: Vec<usize> = range.clone().filter_map(place).collect();
+                let name = Name { text: name.get_ref(), place: name.span(), path };
+                let all = named(reader, quantity.part(), &name, layout)?;
+                let own: Vec<usize> = all.clone().filter_map(|index| of.iter().position(|&of| of == index)).collect();
                 if own.is_empty() {
-                    return foreign(reader, name.span(), path, name.get_ref(), layout);
+                    return foreign(reader, &name, layout);
                 }
                 if own.iter().any(|&at| given[at]) {
-                    return again(reader, name.span(), path, name.get_ref());
+                    return again(reader, &name);
                 }
                 own.iter().for_each(|&at| given[at] = true);
-                let path = path.entry(name.get_ref());
-                let components_of_it: Vec<usize> = own.iter().map(|&at| of[at]).collect();
-                let found = match whole {
-                    None => vec![one(reader, &path, value, quantity, &components[range.start])?],
-                    Some(joint) => of_joint(reader, &path, value, quantity, (layout, joint), &components_of_it)?,
+                let path = path.entry(name.text);
+                let found = match all.len() {
+                    1 => vec![one(reader, &path, value, quantity, &components[all.start])?],
+                    _ => {
+                        let of: Vec<usize> = own.iter().map(|&at| of[at]).collect();
+                        of_joint(reader, &path, value, quantity, layout, &of)?
+                    }
                 };
                 own.iter().zip(found).for_each(|(&at, found)| values[at] = found);
                 Some(())
@@ -241,27 +213,35 @@ fn of_joint(
     path: &KeyPath,
     value: &Value<'_>,
     quantity: Quantity,
-    (layout, joint): (&Layout, &Joint),
+    layout: &Layout,
     of: &[usize],
 ) -> Option<Vec<f64>> {
-    let is_position = quantity == Quantity::Coordinate && joint.has_orientation();
-    let is_part = of.len() < quantity.of_joint(joint).len();
-    let title = match value.get_ref() {
-        DeValue::Table(_) | DeValue::Array(_) if is_part => "stands for all of the joint, but is for",
-        DeValue::Table(_) if is_position => return in_space::coordinates(reader, path, value, joint),
-        DeValue::Table(_) => "must be an array, not a table, with a value for each of",
+    let components = quantity.part().components(layout);
+    let joint = &layout.joints[components[of[0]].joint];
+    let names: Vec<&str> = of.iter().map(|&index| components[index].name.as_str()).collect();
+    let is_part = of.len() < quantity.part().of_joint(joint).len();
+    let (what, label, help) = match value.get_ref() {
+        DeValue::Table(_) | DeValue::Array(_) if is_part => (
+            format!("stands for all of the joint, but is for {} only", names.join(", ")),
+            "more than that",
+            format!("give it by its own name: \"{}\" = 0", names[0]),
+        ),
+        DeValue::Table(_) if quantity == Quantity::Coordinate && joint.has_orientation() => {
+            return in_space::coordinates(reader, path, value, joint);
+        }
+        DeValue::Table(_) => (
+            format!("must be an array, not a table, with a value for each of {}", names.join(", ")),
+            "not an array",
+            format!(
+                "write for example `{} = [{}]`, or by one name `\"{}\" = 0`",
+                joint.name,
+                vec!["0"; names.len()].join(", "),
+                names[0]
+            ),
+        ),
         _ => return unchecked(reader, path, value, quantity, layout, of),
     };
-    let names: Vec<&str> = of.iter().map(|&index| quantity.components(layout)[index].name.as_str()).collect();
-    let title = format!("{}: `{path}` {title} {}", reader.item(), names.join(", "));
-    let (title, label, help) = match is_part {
-        true => (title + " only", "more than that", format!("give it by its own name: \"{}\" = 0", names[0])),
-        false => {
-            let zeros = vec!["0"; names.len()].join(", ");
-            let help = format!("write for example `{} = [{zeros}]`, or by one name `\"{}\" = 0`", joint.name, names[0]);
-            (title, "not an array", help)
-        }
-    };
+    let title = format!("{}: `{path}` {what}", reader.item());
     reader.error(value, Message { title, label: label.into(), help })
 }
 

@@ -10,7 +10,7 @@ const RUN: &str = "[forward]\nend = 1.0\nstep = 0.05\n";
 const BODY: &str =
     "mass = 1.5\ncom = [0.05, 0.1, -0.3]\ninertia = { xx = 0.02, yy = 0.03, zz = 0.04, xy = 0.002, yz = -0.004 }\n";
 const MASSLESS: &str = "mass = 0\ninertia = { xx = 0, yy = 0, zz = 0 }\n";
-/// The first velocity of a universal joint has an actuator, the second has none.
+/// Actuates the first velocity of a universal joint only.
 const PARTLY: &str = "actuated = [true, false]\n";
 
 fn head() -> String {
