@@ -1,4 +1,4 @@
-//! The heavy top that spins at 150 rad/s passes the gimbal of its Euler angles, and a quaternion has none. The table of
+//! The heavy top at 150 rad/s with a quaternion and with Euler angles, whose singularity it passes. The table of
 //! `docs/floating_and_walking.md` has the figures.
 #![cfg(feature = "generic")]
 
