@@ -78,7 +78,7 @@ pub struct Initial {
     pub v: Option<Values>,
     /// Whether loops are closed from there; by default they are.
     pub assemble: Option<bool>,
-    /// The joints, or velocities of them, that stay where they are while loops are closed; by default what has an actuator.
+    /// The joints, or velocities of them, that stay where they are while loops are closed; by default the actuated ones.
     pub held: Option<Vec<String>>,
 }
 

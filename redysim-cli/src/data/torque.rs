@@ -6,8 +6,8 @@ use super::{Values, nothing_else};
 
 /// What the actuators do.
 ///
-/// `joints` are those that a law drives, or single velocities of them, such as `swivel.phi`, by default every velocity that
-/// has an actuator; values are in their order. `limits` are the largest forces on them, by default none.
+/// `joints` are those that a law drives, or single velocities of them, such as `swivel.phi`, by default the actuated
+/// velocities; values are in their order. `limits` are the largest forces on them, by default none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Torque {

@@ -6,8 +6,8 @@ use super::Values;
 
 /// A motion of some joints that is prescribed to inverse dynamics or followed by a torque law.
 ///
-/// `joints` are those that move so, or single velocities of them, such as `swivel.phi`, by default all; of closed loops what
-/// has an actuator. Values are in their order.
+/// `joints` are those that move so, or single velocities of them, such as `swivel.phi`, by default all; of closed loops the
+/// actuated ones. Values are in their order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Trajectory {

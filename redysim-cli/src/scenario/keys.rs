@@ -52,7 +52,7 @@ pub const ASSEMBLE: Key =
     Key::new("assemble", "false", "start as given, though loops may not be closed").with_default("true");
 pub const HELD: Key =
     Key::new("held", "[\"crank\"]", "what stays where it is while loops are closed: joints, or velocities")
-        .with_default("what has an actuator, or what `forward.prescribed` names, which always stays");
+        .with_default("the actuated velocities, or those of `forward.prescribed`, which always stay");
 
 pub const TRAJECTORY: Key = Key::of_table(
     "trajectory",
@@ -69,7 +69,7 @@ pub const MOTION_KIND: Key =
     Key::new("kind", "\"cycloid\"", "or constant-speed, minimum-jerk, cubic, csv").with_default("`cycloid`");
 pub const PRESCRIBED: Key =
     Key::new("joints", "[\"crank\"]", "which are prescribed; or single velocities of them: [\"swivel.phi\"]")
-        .with_default("all joints; of closed loops what has an actuator");
+        .with_default("all joints; of closed loops the actuated velocities");
 pub const FROM: Key = Key::new("from", "[0, 0]", "rad or m").with_default("required");
 pub const TO: Key = Key::new("to", "[\"60 deg\", 1]", "rad or m").with_default("required");
 pub const DURATION: Key = Key::new("duration", "2.0", "s").with_default("required");
@@ -163,7 +163,7 @@ pub const LAW: Key =
         .with_default("`free`");
 pub const DRIVEN: Key =
     Key::new("joints", "[\"crank\"]", "which are driven; or single velocities of them: [\"swivel.phi\"]")
-        .with_default("every velocity with an actuator; of `tracking-pd` those that the trajectory prescribes");
+        .with_default("the actuated velocities; of `tracking-pd` those that the trajectory prescribes");
 pub const TARGET: Key = Key::new("target", "[0, \"90 deg\"]", "rad or m").with_default("required");
 pub const KP: Key = Key::new("kp", "49.0", "of all joints, or one of each: [49.0, 20.0]").with_default("required");
 pub const KD: Key = Key::new("kd", "14.0", "of all joints, or one of each: [14.0, 8.0]").with_default("required");
