@@ -41,6 +41,14 @@ fn moved(folder: &Path, rest: &str) -> [Table; 2] {
     ["traj", "tor"].map(|name| Table::csv(&folder.join("run").join(format!("{name}.csv"))))
 }
 
+/// The scenario that a run has left in its results, which gives the same states again.
+fn copy_that_runs_again(folder: &Path) -> String {
+    succeed(folder, &["forward", "run/run.toml", "-o", "again", "--quiet"]);
+    let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    assert_eq!(read("run/statevar.csv"), read("again/statevar.csv"));
+    read("run/run.toml")
+}
+
 /// What `redysim forward` prints about a run that is refused.
 fn refused(folder: &Path, rest: &str) -> String {
     fs::write(folder.join("trial.toml"), format!("model = 'model.toml'\n{rest}")).unwrap();
@@ -138,11 +146,8 @@ fn one_velocity_of_a_joint_follows_its_trajectory_exactly_while_the_other_is_fre
     let drift = Table::csv(&folder.join("run/energy.csv")).column("drift [J]");
     assert!(drift.iter().all(|drift| drift.abs() < 1e-10), "{drift:?}");
     // The copy names the velocity.
-    let text = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    let text = copy_that_runs_again(&folder);
     assert!(text.contains("joints = ['u.phi']") && text.contains("prescribed = ['u.phi']"), "{text}");
-    succeed(&folder, &["forward", "run/run.toml", "-o", "again", "--quiet"]);
-    let read = |run: &str| fs::read_to_string(folder.join(run).join("statevar.csv")).unwrap();
-    assert_eq!(read("run"), read("again"));
 }
 
 #[test]
@@ -150,11 +155,8 @@ fn the_copy_of_a_scenario_names_the_velocities_that_a_law_drives_by_default() {
     let folder = scratch("per-velocity-copy");
     universal(&folder, PARTLY);
     moved(&folder, &format!("{START}{RUN}torque = {{ law = 'pd', target = [1], kp = 60, kd = 8 }}\n"));
-    let text = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    let text = copy_that_runs_again(&folder);
     assert!(text.contains("joints = [\"u.phi\"]"), "{text}");
-    succeed(&folder, &["forward", "run/run.toml", "-o", "again", "--quiet"]);
-    let read = |run: &str| fs::read_to_string(folder.join(run).join("statevar.csv")).unwrap();
-    assert_eq!(read("run"), read("again"));
 }
 
 #[test]
