@@ -1,9 +1,11 @@
-//! The heavy top of Géradin and Cardona, in quaternions.
+//! The heavy top of Géradin and Cardona, in quaternions, and in Euler angles past their gimbal.
 
 #[path = "../../../tests/common/elliptic.rs"]
 mod elliptic;
 
-use crate::common::{Table, deviation, root, scratch, succeed};
+use std::fs;
+
+use crate::common::{Table, deviation, fail, root, scenario, scratch, succeed};
 use elliptic::jacobi;
 
 /// The mass, kg, the moments of inertia about the axis of symmetry and across it at the fixed point, kg m², the spin
@@ -44,4 +46,36 @@ fn the_heavy_top_nods_as_elliptic_functions_have_it_and_keeps_its_spin() {
     assert!(expected.iter().any(|height| height[0] < -0.999), "it goes through the vertical");
     let drift = read("energy.csv").column("drift [J]");
     assert!(drift.iter().all(|drift| drift.abs() < 1e-10 * KINETIC), "{drift:?}");
+}
+
+/// The top in Euler angles, which nods through their gimbal at 0.3726 s.
+const IN_ANGLES: &str = "\
+[[link]]
+name = 'top'
+joint_name = 'pivot'
+parent = 'base'
+joint = 'spherical'
+coordinates = 'zxy'
+origin = {}
+mass = 15.0
+com = [0.0, 1.0, 0.0]
+inertia = { xx = 0.234375, yy = 0.46875, zz = 0.234375 }
+";
+
+#[test]
+fn a_run_that_fails_in_the_gimbal_of_euler_angles_advises_a_quaternion() {
+    let folder = scratch("heavy-top-in-angles");
+    let model = folder.join("top.toml");
+    fs::write(&model, format!("name = 'top'\ngravity = [0.0, 0.0, -9.81]\n{IN_ANGLES}")).unwrap();
+    for (method, reason) in [("Ode4", "is infinite or not a number"), ("Gauss6", "are not solved by iteration")] {
+        let rest = format!(
+            "[initial]\nv = {{ pivot = [-4.61538, 0, {SPIN:?}] }}\n[forward]\nend = 2.0\nstep = 0.01\n\
+             integrator = {{ method = '{method}', step = 1e-4 }}\ntorque = {{ law = 'free' }}\n"
+        );
+        let path = scenario(&folder, &model.display().to_string(), &rest);
+        let printed = fail(&folder, &["forward", &path, "-o", "run", "--force"], 3);
+        assert!(printed.contains(reason), "{printed}");
+        assert!(printed.contains("the Euler angles of the joint `pivot` are "), "{printed}");
+        assert!(printed.contains("leave `coordinates` of its link out of the model"), "{printed}");
+    }
 }

@@ -1,5 +1,6 @@
 //! `redysim forward SCENARIO`.
 
+mod gimbal;
 mod ground;
 mod growth;
 mod observer;
@@ -14,6 +15,7 @@ use crate::interrupt;
 use crate::number::size;
 use crate::results::{self, Balance, Ended, Files, Outcome, Record, Sink, Summary};
 use crate::scenario::{Dynamics, Forward, Ground, Integrator, Scenario, Tolerances, keys, missing};
+use gimbal::Gimbals;
 use growth::{Gains, Growth};
 use observer::RunObserver;
 use system::System;
@@ -64,18 +66,25 @@ pub fn compute_into(
 ) -> Result<(Summary, Vec<String>), Failure> {
     let ground = scenario.ground();
     let mut record = Record::begin(sink, scenario, Dynamics::Forward, forward.span, quiet);
-    let (outcome, growth) = move_on(scenario, (forward, &ground), &mut record, quiet)?;
-    warn_of_drift(forward, &record, growth.as_ref());
+    let (outcome, signs) = move_on(scenario, (forward, &ground), &mut record, quiet)?;
+    warn_of_drift(forward, &record, &signs);
     record.end(outcome)
 }
 
-/// The motion from the start to the end, as far as it goes, and whether it grows without bound.
+/// What a run shows of the reasons for which it may go wrong.
+struct Signs {
+    /// A motion that grows without bound.
+    growth: Option<Growth>,
+    gimbals: Gimbals,
+}
+
+/// The motion from the start to the end, as far as it goes, and why it may be wrong.
 fn move_on<'a>(
     scenario: &'a Scenario,
     (forward, ground): (&'a Forward, &'a Ground<'a>),
     record: &mut Record<'a>,
     quiet: bool,
-) -> Result<(Outcome, Option<Growth>), Failure> {
+) -> Result<(Outcome, Signs), Failure> {
     let mut system = System::new(scenario, forward, ground);
     let start = system.start(scenario, forward, quiet)?;
     warn_of_step(scenario, forward, &mut system, &start, record);
@@ -88,15 +97,16 @@ fn move_on<'a>(
         }
     };
     let solution = integrator.run(ground, system.ode(), (interval, &stops), start, &mut observer, on_event);
-    let RunObserver { steps, position_residual, growth, failed, .. } = observer;
+    let RunObserver { steps, position_residual, growth, gimbals, failed, .. } = observer;
     let ended = match (&solution, failed) {
         (Err(error), _) => {
             let failure = explained(error, (scenario, forward), &system);
             // The remedies of an integration that fails are those for right motions.
-            Ended::Failed(match &growth {
-                Some(growth) if !growth.from_nowhere => {
+            Ended::Failed(match (&growth, gimbals.advice()) {
+                (Some(growth), _) if !growth.from_nowhere => {
                     failure.and(&format!("; {}", growth.warning)).help(&growth.help)
                 }
+                (_, Some(advice)) => failure.help(advice),
                 _ => failure,
             })
         }
@@ -116,7 +126,7 @@ fn move_on<'a>(
         position_residual: scenario.loops().then_some(position_residual),
         contacts: Some((ground.contacts().len(), touch_downs)).filter(|(contacts, _)| *contacts > 0),
     };
-    Ok((outcome, growth))
+    Ok((outcome, Signs { growth, gimbals }))
 }
 
 /// Warns before the run that its steps are too large, if that is so at the start.
@@ -149,24 +159,24 @@ fn two_digits(value: f64) -> f64 {
 }
 
 /// Warns that a motion is wrong, if its energy shows it.
-fn warn_of_drift(forward: &Forward, record: &Record<'_>, growth: Option<&Growth>) {
+fn warn_of_drift(forward: &Forward, record: &Record<'_>, Signs { growth, gimbals }: &Signs) {
     if matches!(forward.stabilisation, Stabilisation::Baumgarte { .. }) {
         // While it closes loops, its feedback does work that is not counted.
         return;
     }
-    if growth.is_some_and(|growth| !growth.from_nowhere) {
+    if growth.as_ref().is_some_and(|growth| !growth.from_nowhere) {
         // The energy of a motion without bound says nothing about the integrator.
         return;
     }
     let Balance { drift, .. } = record.balance();
     if let Some(part) = record.balance().wrong_part() {
-        let help = smaller_steps(&forward.integrator);
+        let help = gimbals.advice().unwrap_or_else(|| smaller_steps(&forward.integrator));
         let warning = format!(
             "the motion is wrong: {} J have come from nowhere, {:.0} % of the energy that was exchanged",
             size(*drift),
             100.0 * part
         );
-        let gains = growth.map_or(String::new(), |growth| format!("; if it still grows, {}", growth.help));
+        let gains = growth.as_ref().map_or(String::new(), |growth| format!("; if it still grows, {}", growth.help));
         record.warn(&warning, &(help + &gains));
     }
 }

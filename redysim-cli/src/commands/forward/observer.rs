@@ -6,6 +6,7 @@ use redysim_runtime::integrate::algorithm::Formula;
 use redysim_runtime::integrate::{ObservedStep, Observer};
 use redysim_runtime::{IntegrationError, Ode, SimulationState, Step};
 
+use super::gimbal::Gimbals;
 use super::growth::{Distances, Growth};
 use super::system::System;
 use crate::failure::Failure;
@@ -27,6 +28,8 @@ pub struct RunObserver<'a, 'r> {
     distances: Distances,
     /// A motion that grows without bound, when it is first seen.
     pub growth: Option<Growth>,
+    /// How near joints in Euler angles have come to their gimbals.
+    pub gimbals: Gimbals,
     /// Why an instant could not be written.
     pub failed: Option<Failure>,
 }
@@ -52,6 +55,7 @@ impl<'a, 'r> RunObserver<'a, 'r> {
             position_residual: 0.0,
             distances: Distances::new(),
             growth: None,
+            gimbals: Gimbals::default(),
             failed: None,
         };
         observer.write(forward.span.start, start)?;
@@ -66,6 +70,7 @@ impl<'a, 'r> RunObserver<'a, 'r> {
     fn see(&mut self, t: f64, state: &Vec<f64>) {
         let SimulationState { q, v, actuator_energy } = self.system.split(t, state);
         self.record.see(&q, &v, actuator_energy);
+        self.gimbals.see(&self.scenario.layout, t, &q);
         self.position_residual = self.position_residual.max(self.scenario.position_residual(&q));
         if self.growth.is_none() {
             let from_nowhere = self.record.balance().wrong_part().is_some();
