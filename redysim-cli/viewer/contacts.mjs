@@ -1,7 +1,7 @@
 // Plays the page `animation.html` of a results folder in headless Chromium, and holds the arrows of the forces of the ground
 // against `contacts.csv` and the footprints against the events in `touch_downs.csv`, of which `run.toml` has the number: node
-// contacts.mjs FOLDER NORMAL, where NORMAL is x, y or z, the outward normal of ground through the origin, and the table
-// `points.csv` of the folder has the places of the frames in contact.
+// contacts.mjs FOLDER PLANE .., where a PLANE is that of a contact, or that of all: its outward normal and where it crosses that
+// axis, as z, y or -x=2. The table `points.csv` of the folder has the places of the frames in contact, which have their names.
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -17,7 +17,10 @@ const SINGLE = 1e-6;
 const ALONG_Y = 0.99999;
 
 const folder = resolve(process.argv[2]);
-const normal = "xyz".indexOf(process.argv[3]);
+const planes = process.argv.slice(3).map((plane) => {
+  const [, minus, name, at] = plane.match(/^(-?)([xyz])=?(.*)$/);
+  return { axis: "xyz".indexOf(name), sign: minus ? -1 : 1, at: Number(at) };
+});
 const tables = ["contacts", "points", "touch_downs"].map((name) => table(join(folder, `${name}.csv`)));
 const [contacts, points, events] = await Promise.all(tables);
 const names = contacts.headers.filter((header) => header.startsWith("force_x ")).map((header) => header.slice(8, -4));
@@ -76,14 +79,17 @@ function arrowIsThatOfTheForce(arrow, row, name) {
 
 /** A footprint lies a little above the ground, so that it is seen. */
 function footprintsAreThoseOfTouchDowns(footprints, row) {
-  const begun = names.flatMap(touchDowns).filter(({ t }) => t <= contacts.t[row]).map(({ place }) => place);
+  const ofContact = (name, contact) =>
+    touchDowns(name, contact).map((event) => ({ ...event, plane: planes[planes.length > 1 ? contact : 0] }));
+  const begun = names.flatMap(ofContact).filter(({ t }) => t <= contacts.t[row]);
   const what = `footprints at ${contacts.t[row]} s`;
   assert.equal(footprints.length, begun.length, what);
-  begun.forEach((place, index) => {
+  begun.forEach(({ place, plane }, index) => {
     const print = footprints[index];
-    const onGround = (at) => at.map((value, axis) => (axis === normal ? 0 : value));
-    near(onGround(print), onGround(place), TOLERANCE, what);
-    assert.ok(print[normal] > 0 && print[normal] < 0.02, `${what}: ${print} is on the ground`);
+    const onPlane = (at) => at.map((value, axis) => (axis === plane.axis ? 0 : value));
+    near(onPlane(print), onPlane(place), TOLERANCE, what);
+    const height = plane.sign * (print[plane.axis] - plane.at);
+    assert.ok(height > 0 && height < 0.02, `${what}: ${print} is on its plane`);
   });
 }
 

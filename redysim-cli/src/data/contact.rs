@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The ground: a plane.
+/// The ground, or a wall: a plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ground {
@@ -23,6 +23,8 @@ pub enum Contact {
         name: Option<String>,
         /// The frame, or several of them.
         frame: FrameNames,
+        /// The plane that it meets; by default the ground of the scenario.
+        ground: Option<Ground>,
         /// K, N/m.
         stiffness: f64,
         /// C_v, N s/m.
@@ -40,6 +42,8 @@ pub enum Contact {
         name: Option<String>,
         /// The frame, or several of them.
         frame: FrameNames,
+        /// The plane that it meets; by default the ground of the scenario.
+        ground: Option<Ground>,
         /// k, N/mⁿ.
         stiffness: f64,
         /// n; by default 1.5.

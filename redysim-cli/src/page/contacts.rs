@@ -1,18 +1,18 @@
 //! What a run has done to the ground: the forces of its contacts, and the places where they touched down.
 
 use redysim_model::{GenericMechanism, Model};
-use redysim_runtime::{Frames, GroundPlane};
+use redysim_runtime::Frames;
 use serde::Serialize;
 
 use super::bodies::{self, Body};
-use super::footprints::{TouchDowns, footprint};
-use crate::data::{Contact, FrameNames, Results};
+use super::footprints::TouchDowns;
+use super::planes::{Meeting, Plane, met};
+use crate::data::Results;
 use crate::failure::Failure;
 use crate::layout::Layout;
 use crate::number::counted;
 use crate::recorded::{Recorded, evenly};
 use crate::results::names;
-use crate::scenario::contact::{USUAL_NORMAL, USUAL_POINT};
 use crate::table::Table;
 
 /// Components of forces that a page holds at most: a megabyte of them.
@@ -21,9 +21,8 @@ const NUMBERS: usize = 60_000;
 /// The ground and its contacts over time.
 #[derive(Serialize)]
 pub struct Contacts {
-    /// A point of the ground, m, and its outward normal.
-    point: [f64; 3],
-    normal: [f64; 3],
+    /// The ground, then the other planes that contacts meet.
+    planes: Vec<Plane>,
     /// The instants of the forces, s.
     t: Vec<f64>,
     places: Vec<Place>,
@@ -35,12 +34,14 @@ pub struct Contacts {
 /// A contact.
 #[derive(Serialize)]
 struct Place {
+    /// The number of the plane that it meets.
+    plane: usize,
     /// The body that carries it, and where it is in the frame of the body, m.
     body: usize,
     position: [f64; 3],
     /// The force on the mechanism in the base frame at each instant, N.
     forces: Vec<[f32; 3]>,
-    /// When, s, and where on the ground, m, it touched down; also where it stands at the start.
+    /// When, s, and where on the plane, m, it touched down; also where it stands at the start.
     footprints: Vec<[f64; 4]>,
 }
 
@@ -52,9 +53,7 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<Option<
     let (Some(table), Some(motion)) = (recorded.table(names::CONTACTS)?, recorded.motion()?) else { return Ok(None) };
     let Results { scenario, run, .. } = Results::load(recorded.folder())?;
     let touch_downs = TouchDowns::of(recorded)?;
-    let ground = scenario.ground.unwrap_or_default();
-    let (point, normal) = (ground.point.unwrap_or(USUAL_POINT), ground.normal.unwrap_or(USUAL_NORMAL));
-    let plane = GroundPlane::new(point, normal).map_err(Failure::input)?;
+    let (planes, contacts) = met(&scenario)?;
     let mechanism = GenericMechanism::new(model.clone());
     let q = positions(&motion, layout);
     let at_rest = vec![0.0; layout.nv()];
@@ -63,7 +62,7 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<Option<
     let rows = evenly(table.t.len(), NUMBERS / (3 * model.frames.len()).max(1));
     let of_frames: Vec<_> = bodies::frames(model).into_iter().skip(model.links.len()).collect();
     let mut places = Vec::new();
-    for (contact, (name, frame)) in scenario.contact.iter().flatten().flat_map(named).enumerate() {
+    for (contact, Meeting { name, frame, plane }) in contacts.into_iter().enumerate() {
         let Some(number) = model.frames.iter().position(|of| of.name == frame) else { continue };
         let column = |symbol: &str| table.of(symbol).find(|column| column.name == name).map(|column| &column.values);
         let (Some(x), Some(y), Some(z)) = (column("force_x"), column("force_y"), column("force_z")) else { continue };
@@ -77,10 +76,11 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<Option<
         let in_record = touch_downs.iter().flat_map(|touch_downs| touch_downs.of_contact(contact));
         let (body, position) = of_frames[number].place();
         places.push(Place {
+            plane,
             body,
             position,
             forces: rows.iter().map(|&row| [x[row] as f32, y[row] as f32, z[row] as f32]).collect(),
-            footprints: by_rows.chain(in_record).map(|print| footprint(&plane, print)).collect(),
+            footprints: by_rows.chain(in_record).map(|print| planes[plane].footprint(print)).collect(),
         });
     }
     let t = rows.iter().map(|&row| table.t[row]).collect();
@@ -88,7 +88,7 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<Option<
         places.iter().flat_map(|place| &place.footprints).filter(|[t, ..]| *t > table.t[0]).count() as u64;
     let without_record = run.touch_downs.filter(|_| touch_downs.is_none());
     let lost = without_record.map_or(0, |count| count.saturating_sub(after_start));
-    Ok(Some(Contacts { point, normal: plane.normal(), t, places, lost }))
+    Ok(Some(Contacts { planes, t, places, lost }))
 }
 
 impl Contacts {
@@ -106,15 +106,6 @@ impl Contacts {
         for Place { body, position, .. } in &self.places {
             bodies[*body].reach_to(*position);
         }
-    }
-}
-
-/// Names and frames of the contacts of a table `contact`.
-fn named(contact: &Contact) -> Vec<(&str, &str)> {
-    let (Contact::ReDySim { name, frame, .. } | Contact::HuntCrossley { name, frame, .. }) = contact;
-    match frame {
-        FrameNames::One(frame) => vec![(name.as_deref().unwrap_or(frame), frame)],
-        FrameNames::Several(frames) => frames.iter().map(|frame| (frame.as_str(), frame.as_str())).collect(),
     }
 }
 

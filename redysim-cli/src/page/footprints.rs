@@ -1,7 +1,5 @@
 //! Where contacts have touched down.
 
-use redysim_runtime::GroundPlane;
-
 use crate::failure::Failure;
 use crate::recorded::Recorded;
 use crate::results::names;
@@ -39,11 +37,4 @@ fn column(table: &Table, symbol: &str) -> Result<Vec<f64>, Failure> {
         Failure::input(format!("{}:1: the column `{symbol} [..]` is missing", table.path.display()))
             .help("results are read as a run has written them: run the scenario again")
     })
-}
-
-/// A footprint: when, s, and the place on the ground below or above `place`, m.
-pub fn footprint(plane: &GroundPlane<f64>, (t, place): (f64, [f64; 3])) -> [f64; 4] {
-    let height = plane.height(&place);
-    let [x, y, z] = [0, 1, 2].map(|axis| place[axis] - height * plane.normal()[axis]);
-    [t, x, y, z]
 }

@@ -7,6 +7,7 @@ mod contacts;
 mod footprints;
 mod meshes;
 mod motion;
+mod planes;
 mod sliders;
 mod solid;
 

@@ -63,7 +63,7 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
             shorthand::STABILISATION.expand(&mut table["stabilisation"]);
         }
     }
-    if !scenario.contacts.names.is_empty() {
+    if scenario.contacts.meet_ground {
         set_default(&mut document["ground"], "point", numbers(&USUAL_POINT));
         set_default(&mut document["ground"], "normal", numbers(&USUAL_NORMAL));
     }

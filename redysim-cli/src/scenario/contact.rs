@@ -26,6 +26,8 @@ pub struct Contacts {
     pub names: Vec<String>,
     /// The contacts, of frames that the model has.
     pub list: Vec<Contact>,
+    /// Whether one of them meets the ground of the scenario.
+    pub meet_ground: bool,
 }
 
 impl Contacts {
@@ -36,16 +38,22 @@ impl Contacts {
             let array = reader.array(path, value, "an array of tables, each headed `[[contact]]`")?;
             reader.elements(path, array, |reader, path, value| Table::read(reader, path, value, model))
         });
-        if let (Field::Value(given), Field::Missing) = (&ground, &field) {
-            let title =
-                format!("{}: `ground` applies only to contacts, and the scenario has no contact", reader.item());
-            let help = "add tables `[[contact]]`, or leave it out".to_owned();
+        let without_contact = matches!(field, Field::Missing);
+        let tables = field.value_or(vec![])?;
+        let meet_ground = tables.iter().any(|table| table.plane.is_none());
+        if let Field::Value(given) = &ground
+            && !meet_ground
+        {
+            let why = if without_contact { "the scenario has no contact" } else { "each has a `ground` of its own" };
+            let title = format!("{}: `ground` applies only to contacts, and {why}", reader.item());
+            let help = "add tables `[[contact]]` without one, or leave it out".to_owned();
             reader.warning_at(given.span(), Message { title, label: "without effect".into(), help });
         }
         let usual = || GroundPlane::new(USUAL_POINT, USUAL_NORMAL).ok();
-        let plane = given(ground)?.or_else(usual)?;
-        let mut contacts = Contacts::default();
-        for Table { names, frames, law } in field.value_or(vec![])? {
+        let ground = given(ground)?.or_else(usual)?;
+        let mut contacts = Contacts { meet_ground, ..Contacts::default() };
+        for Table { names, frames, plane, law } in tables {
+            let plane = plane.unwrap_or(ground);
             for (name, frame) in names.into_iter().zip(frames) {
                 if contacts.names.contains(name.get_ref()) {
                     return twice(reader, &name);
@@ -86,6 +94,8 @@ struct Table {
     /// One for each frame.
     names: Vec<Spanned<String>>,
     frames: Vec<usize>,
+    /// The plane, if it is not the ground of the scenario.
+    plane: Option<GroundPlane<f64>>,
     law: AnyContactLaw<f64>,
 }
 
@@ -102,8 +112,10 @@ impl Table {
         reader.table_of_kind_at(path, value, &keys::CONTACT_LAW, &LAWS, None, |mut reader, law| {
             let frames = frames(&mut reader, model);
             let names = frames.as_ref().and_then(|frames| names(&mut reader, frames));
+            let plane = given(reader.table(&keys::CONTACT_GROUND, read_plane));
             let law = law(&mut reader);
-            Some(Table { names: names?, frames: frames?.into_iter().map(|(_, frame)| frame).collect(), law: law? })
+            let frames = frames?.into_iter().map(|(_, frame)| frame).collect();
+            Some(Table { names: names?, frames, plane: plane?, law: law? })
         })?
     }
 }

@@ -222,6 +222,13 @@ pub const GROUND: Key = Key::of_table(
     &[&GROUND_KEYS],
 )
 .with_default("the plane z = 0, with the free side above");
+pub const CONTACT_GROUND: Key = Key::of_table(
+    "ground",
+    "{ point = [2.0, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }",
+    "the plane that it meets instead, such as a wall",
+    &[&GROUND_KEYS],
+)
+.with_default("`ground` of the scenario");
 const GROUND_KEYS: Keys = Keys::new("`ground`", &[POINT, NORMAL]);
 pub const POINT: Key = Key::new("point", "[0.0, 0.0, 0.0]", "m, of the plane").with_default("[0, 0, 0]");
 pub const NORMAL: Key =
@@ -238,6 +245,7 @@ pub const REDYSIM_CONTACT: Keys = Keys::new(
         CONTACT_LAW,
         CONTACT_NAME,
         CONTACT_FRAME,
+        CONTACT_GROUND,
         CONTACT_STIFFNESS,
         CONTACT_DAMPING,
         LEAVING_SPEED,
@@ -251,6 +259,7 @@ pub const HUNT_CROSSLEY: Keys = Keys::new(
         CONTACT_LAW,
         CONTACT_NAME,
         CONTACT_FRAME,
+        CONTACT_GROUND,
         HUNT_CROSSLEY_STIFFNESS,
         EXPONENT,
         HUNT_CROSSLEY_DAMPING,

@@ -161,6 +161,63 @@ fn a_wall_is_the_ground_with_another_point_and_normal() {
     assert!((last[8] + 2.0).abs() < 1e-6 && last[1] < 0.3, "{last:?}");
 }
 
+/// Without gravity what happens at the floor happens at the wall, as the ball is as far from both and comes as fast to both.
+#[test]
+fn a_ball_leaves_a_wall_as_it_leaves_the_floor() {
+    let folder = scratch("contact-corner");
+    let model = "name = 'ball'\ngravity = [0, 0, 0]\nallow = ['under-actuated']\n[[link]]\nname = 'ball'\nparent = 'base'\n\
+                 joint = 'free'\norigin = {}\nmass = 0.5\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+                 [[frame]]\nname = 'center'\nlink = 'ball'\n";
+    fs::write(folder.join("ball.toml"), model).unwrap();
+    let law =
+        "frame = 'center'\nlaw = 'hunt-crossley'\nstiffness = 1e5\ndamping = 0.2\nfriction = 0\nslip_velocity = 0.01\n";
+    let rest = format!(
+        "model = 'ball.toml'\ninitial = {{ q = {{ ball = {{ xyz = [1, 0, 1] }} }}, v = {{ ball = [2, 0, -2, 0, 0, 0] }} }}\n\
+         [forward]\nend = 1.0\nstep = 0.002\nintegrator = {{ method = 'Dop853', rtol = 1e-10, atol = 1e-12 }}\n\
+         [[contact]]\nname = 'floor'\n{law}[[contact]]\nname = 'wall'\n{law}\
+         ground = {{ point = [2, 5, 5], normal = [-3, 0, 0] }}\n"
+    );
+    fs::write(folder.join("trial.toml"), rest).unwrap();
+    let output = succeed(&folder, &["forward", "trial.toml", "-o", "run"]);
+    assert!(output.contains("2 contacts, 2 touch-downs"), "{output}");
+    let [state, contacts, energy] =
+        ["statevar", "contacts", "energy"].map(|name| Table::csv(&folder.join(format!("run/{name}.csv"))));
+    let difference = |row: &Vec<f64>| [row[1] + row[3] - 2.0, row[8] + row[10]].map(f64::abs);
+    assert!(state.rows.iter().flat_map(difference).all(|off| off < 1e-12));
+    let [floor, wall] =
+        [("z", "floor"), ("x", "wall")].map(|(axis, name)| contacts.column(&format!("force_{axis} {name} [N]")));
+    let most = floor.iter().copied().fold(0.0, f64::max);
+    assert!(most > 100.0, "{most} N");
+    assert!(floor.iter().zip(&wall).all(|(up, back)| (up + back).abs() < 1e-9 * most));
+    // It leaves more slowly than it has come, by what the damping of both has taken.
+    let last = state.rows.last().unwrap();
+    assert!((-2.0..-1.5).contains(&last[8]), "{last:?}");
+    let drift = energy.column("drift [J]");
+    assert!(drift.iter().all(|drift| drift.abs() < 1e-8), "{drift:?}");
+    // What the run has read is what it writes.
+    let again = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    assert!(again.contains("normal = [-3, 0, 0]"), "{again}");
+    succeed(&folder, &["forward", "run/run.toml", "-o", "again", "--quiet"]);
+    let [run, again] = ["run", "again"].map(|name| fs::read(folder.join(name).join("contacts.csv")).unwrap());
+    assert!(run == again);
+}
+
+#[test]
+fn a_ground_that_no_contact_meets_is_warned_of() {
+    let folder = scratch("contact-ground-unmet");
+    let own = "ground = { point = [0, 0, -1] }\n";
+    let rest = format!(
+        "ground = {{ point = [0, 0, 1] }}\n[forward]\nend = 0.1\nstep = 0.1\n[[contact]]\n{CORNERS}{HUNT_CROSSLEY}{own}"
+    );
+    let run = call(&folder, &["forward", &scenario(&folder, "parcel.toml", &rest), "-o", "run"]);
+    assert_eq!(run.code, 0, "{}", run.output());
+    assert!(
+        run.stderr.contains("`ground` applies only to contacts, and each has a `ground` of its own"),
+        "{}",
+        run.stderr
+    );
+}
+
 #[test]
 fn contacts_that_cannot_be_are_refused_where_they_stand() {
     let trial = |name: &str, from: &str, to: &str, words: &[&str]| {
@@ -205,6 +262,8 @@ fn contacts_that_cannot_be_are_refused_where_they_stand() {
     );
     trial("name", "friction = 0.5", "friction = 0.5\nname = 'corner'", &["4 frames and one name, `corner`"]);
     trial("normal", "[forward]", "ground = { normal = [0, 0, 0] }\n[forward]", &["the normal of the ground is zero"]);
+    let own = "friction = 0.5\nground = { normal = [0, 0, 0] }";
+    trial("wall", "friction = 0.5", own, &["the normal of the ground is zero", "trial.toml:10:21"]);
     trial("ground", "[forward]", "ground = { height = 1 }\n[forward]", &["unknown key `ground.height`"]);
     let folder = scratch("contact-fault-no-frames");
     let rest =
@@ -284,6 +343,7 @@ fn contacts_as_data_read_back_to_the_same_bits() {
             Contact::ReDySim {
                 name: Some("heel".into()),
                 frame: foot("bottom_left_rear"),
+                ground: Some(Ground { point: None, normal: Some([-1.0, 0.1, 1.0 / 7.0]) }),
                 stiffness: 2500.0,
                 damping: 3464.1016151377544,
                 leaving_speed: 4.5,
@@ -293,6 +353,7 @@ fn contacts_as_data_read_back_to_the_same_bits() {
             Contact::HuntCrossley {
                 name: None,
                 frame: several,
+                ground: None,
                 stiffness: 1e5 / 3.0,
                 exponent: None,
                 damping: 0.4,
@@ -350,7 +411,10 @@ fn the_quadruped_trots_five_strides_on_diagonal_legs_without_falling() {
     assert!(drift < 1e-5, "{drift} J of the 4 J that are exchanged");
     succeed(&folder, &["animate", "run", "--quiet"]);
     let page = data(&fs::read_to_string(folder.join("run/animation.html")).unwrap());
-    assert_eq!(page["contacts"]["normal"], serde_json::json!([0.0, 1.0, 0.0]));
+    assert_eq!(
+        page["contacts"]["planes"],
+        serde_json::json!([{ "point": [0.0, 0.0, 0.0], "normal": [0.0, 1.0, 0.0] }])
+    );
     let places = page["contacts"]["places"].as_array().unwrap();
     let steps = |foot: usize| places[foot]["footprints"].as_array().unwrap();
     // At the start all feet stand; a touch-down is there for a row at least, unless the foot lifts off before.

@@ -9,7 +9,7 @@ const Z = new Vector3(0, 0, 1);
 
 export class Contacts {
   /** `size` is the radius of all that the mechanism ever reaches, m. */
-  constructor({ normal, t, places }, linkage, size) {
+  constructor({ planes, t, places }, linkage, size) {
     Object.assign(this, { t, places, linkage, size });
     this.root = new Group();
     const sizes = places.flatMap(({ forces }) => forces.map((force) => Math.hypot(...force))).filter((force) => force > 0);
@@ -19,15 +19,15 @@ export class Contacts {
     this.arrows = places.map(() => seenThrough(new ArrowHelper(Z, new Vector3(), 1, FORCE)));
     const disc = new CircleGeometry(0.02 * size, 24);
     const material = new MeshBasicMaterial({ color: FOOTPRINT, transparent: true, opacity: 0.5, side: DoubleSide });
-    const upward = new Vector3(...normal);
-    this.footprints = places.flatMap(({ footprints }) =>
-      footprints.map(([time, ...place]) => {
+    this.footprints = places.flatMap(({ plane, footprints }) => {
+      const upward = new Vector3(...planes[plane].normal);
+      return footprints.map(([time, ...place]) => {
         const mark = new Mesh(disc, material);
         mark.quaternion.setFromUnitVectors(Z, upward);
         mark.position.set(...place).addScaledVector(upward, 1e-3 * size);
         return { time, mark };
-      }),
-    );
+      });
+    });
     this.root.add(...this.arrows, ...this.footprints.map(({ mark }) => mark));
   }
 

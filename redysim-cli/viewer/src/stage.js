@@ -49,7 +49,8 @@ export class Stage {
       this.moved = moved;
       this.scene.add(this.contacts.root);
     }
-    this.#ground(data.contacts ?? this.#level(lowest((see) => moved.stand(() => everyPoint(points, linkage, see)), this.up)));
+    const level = () => this.#level(lowest((see) => moved.stand(() => everyPoint(points, linkage, see)), this.up));
+    this.#ground(data.contacts?.planes ?? [level()]);
     this.#light();
     this.camera = new PerspectiveCamera(30, 1, this.size / 50, this.sphere.radius * 100);
     // The controls turn about the camera's own upward direction, and ask for it only now.
@@ -187,11 +188,19 @@ export class Stage {
     return { point: this.up.clone().multiplyScalar(height).toArray(), normal: this.up.toArray() };
   }
 
+  /** The ground and other planes, and the axes of the base. */
+  #ground(planes) {
+    const base = new AxesHelper(0.22 * this.size).setColors(...AXES);
+    base.material.depthTest = false;
+    base.renderOrder = 1;
+    this.ground = new Group().add(...planes.map((plane) => this.#plane(plane)), base);
+    this.scene.add(this.ground);
+  }
+
   /** The plane through `point` with the outward `normal`. */
-  #ground(plane) {
+  #plane(plane) {
     const [point, normal] = [plane.point, plane.normal].map((vector) => new Vector3(...vector));
     const { radius, center } = this.sphere;
-    this.ground = new Group();
     const cell = roundLength(Math.max(this.size / 4, radius / CELLS));
     const cells = 2 * Math.ceil((2 * radius) / cell);
     const grid = new GridHelper(cells * cell, cells, "#b9c1c9", "#dde2e7");
@@ -205,11 +214,7 @@ export class Stage {
     const middle = center.clone().addScaledVector(normal, -center.dot(normal));
     middle.divideScalar(cell).round().multiplyScalar(cell).addScaledVector(normal, -middle.dot(normal));
     level.position.copy(middle).addScaledVector(normal, point.dot(normal));
-    const base = new AxesHelper(0.22 * this.size).setColors(...AXES);
-    base.material.depthTest = false;
-    base.renderOrder = 1;
-    this.ground.add(level, base);
-    this.scene.add(this.ground);
+    return level;
   }
 
   #light() {
