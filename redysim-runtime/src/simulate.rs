@@ -155,6 +155,10 @@ where
         constrain_coordinates(self.mechanism, state);
     }
 
+    fn project_onto_tangent(&self, state: &Y, direction: &mut Y) {
+        tangent::project(self.mechanism, state, direction);
+    }
+
     fn error_norm(&self, tolerances: &Tolerances<'_, S>, error: &Y, y: &Y, z: &Y) -> S {
         tangent::error_norm(self.mechanism, tolerances, error, (y, z))
     }

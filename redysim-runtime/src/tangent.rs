@@ -47,6 +47,25 @@ pub(crate) fn error_norm<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
     finite((nq..error.as_ref().len()).fold(norm, |norm, component| norm.maximum(by_itself(component))))
 }
 
+/// [`Ode::project_onto_tangent`](crate::Ode::project_onto_tangent) of a simulation of `mechanism`: d − q (q · d)/(q · q) of each
+/// quaternion q.
+pub(crate) fn project<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(mechanism: &M, state: &Y, direction: &mut Y) {
+    if mechanism.nq() == mechanism.nv() {
+        return;
+    }
+    for velocity in 0..mechanism.nv() {
+        let VelocityCoordinates::Quaternion(first) = mechanism.coordinates_of_velocity(velocity) else { continue };
+        let (along, square) = (first..first + 4).fold((S::zero(), S::zero()), |(along, square), i| {
+            let q = entry(state, i);
+            (along + q * entry(direction, i), square + q * q)
+        });
+        // The three velocities of a quaternion project it three times, which changes nothing after the first one.
+        for (part, i) in direction.as_mut().iter_mut().skip(first).take(4).zip(first..) {
+            *part -= entry(state, i) * along / square;
+        }
+    }
+}
+
 /// N⁺ dq: the velocities that, over a unit of time, move the coordinates of `state` by those of `change` to first order.
 ///
 /// The logarithm of a large change is not proportional to it, and rounding leaves nothing of a small one: it is that of a

@@ -1,14 +1,14 @@
 //! Steps from tolerances weigh errors of an orientation on the tangent: how a body is turned at the start changes
-//! neither their number nor their sizes.
+//! neither their number nor their sizes. Implicit methods differentiate along the tangent.
 #![cfg(feature = "generic")]
 
 use crate::common::methods::{WithMethod, every_adaptive};
 use crate::common::models::generic;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3, Vector4};
 use redysim::Real;
-use redysim::integrate::Tolerances;
+use redysim::integrate::{Accepted, Tolerances};
 use redysim::{
-    Dop853, ForwardDynamics, ForwardSimulation, Integrator, Mechanism, Ode, Statistics, Step, Vector,
+    Dop853, ForwardDynamics, ForwardSimulation, Integrator, Mechanism, Ode, Ode15s, Radau5, Statistics, Step, Vector,
     VelocityCoordinates, ZeroTorque, redysim,
 };
 
@@ -190,4 +190,105 @@ fn an_error_of_an_orientation_is_as_large_as_its_angle() {
         lengthened[4..].fill(0.0);
         assert!(simulation.error_norm(&tolerances, &lengthened, &start, &start) < 1e-14);
     }
+}
+
+/// The quaternion of a state whose first coordinates it is, times that of another or of a direction.
+fn along_quaternion(y: &[f64; 8], direction: &[f64; 8]) -> f64 {
+    (0..4).map(|i| y[i] * direction[i]).sum()
+}
+
+/// A simulation that records along which directions it is differentiated: how many, how far they leave the tangent of the
+/// quaternion, and the shortest.
+struct Differentiated<O> {
+    simulation: O,
+    directions: u64,
+    off_tangent: f64,
+}
+
+impl<O: Ode<f64, [f64; 8]>> Ode<f64, [f64; 8]> for Differentiated<O> {
+    fn derivative(&mut self, t: f64, y: &[f64; 8], dydt: &mut [f64; 8]) {
+        self.simulation.derivative(t, y, dydt);
+    }
+    fn project_onto_tangent(&self, y: &[f64; 8], direction: &mut [f64; 8]) {
+        self.simulation.project_onto_tangent(y, direction);
+    }
+    fn tangent(&mut self, t: f64, y: &[f64; 8], direction: &[f64; 8], slope: &mut [f64; 8]) -> bool {
+        self.directions += 1;
+        self.off_tangent = self.off_tangent.max(along_quaternion(y, direction).abs());
+        self.simulation.tangent(t, y, direction, slope)
+    }
+}
+
+#[test]
+fn implicit_methods_differentiate_along_the_tangent_of_a_quaternion() {
+    let body = Body::new(&[0.0, 0.0, -9.81]);
+    let simulation = || ForwardSimulation::new(&body, ZeroTorque);
+    let start: [f64; 8] = simulation().state(&[0.1, -0.2, 0.3, (1.0_f64 - 0.14).sqrt()], &SPIN);
+    let check = |name: &str, method: &dyn Fn(&mut Differentiated<Simulation<'_, Body>>) -> u64| {
+        let mut differentiated = Differentiated { simulation: simulation(), directions: 0, off_tangent: 0.0 };
+        let jacobians = method(&mut differentiated);
+        let Differentiated { directions, off_tangent, .. } = differentiated;
+        println!("{name}: {jacobians} Jacobians, off the tangent by {off_tangent:.1e}");
+        assert!(jacobians > 0 && directions == 8 * jacobians, "{name}: {directions} directions");
+        assert!(off_tangent < 1e-15, "{name}: {off_tangent:e}");
+    };
+    check("Radau5", &|ode| {
+        Radau5::new().rtol(1e-6).atol(1e-9).integrate(ode, (0.0, 1.0), start).expect("it turns").statistics.jacobians
+    });
+    check("Ode15s", &|ode| {
+        Ode15s::new().rtol(1e-6).atol(1e-9).integrate(ode, (0.0, 1.0), start).expect("it turns").statistics.jacobians
+    });
+}
+
+/// Of the motion of a body nothing but a change of the length of its quaternion is off the tangent.
+#[test]
+fn the_projection_onto_the_tangent_keeps_what_a_body_can_do_and_removes_a_change_of_length() {
+    let body = Body::new(&[0.0; 3]);
+    let mut simulation = ForwardSimulation::new(&body, ZeroTorque);
+    for turn in turns() {
+        let start: [f64; 8] = simulation.state(&[0.0, 0.0, 0.0, 1.0], &SPIN);
+        let start = turned(&turn, &body, &start);
+        let mut rate = [0.0; 8];
+        simulation.derivative(0.0, &start, &mut rate);
+        let mut projected = rate;
+        simulation.project_onto_tangent(&start, &mut projected);
+        assert!(
+            rate.iter().zip(projected).all(|(rate, kept)| (rate - kept).abs() < 1e-14),
+            "{projected:?}, not {rate:?}"
+        );
+        let mut longer = start;
+        simulation.project_onto_tangent(&start, &mut longer);
+        assert!(longer[..4].iter().all(|part| part.abs() < 1e-15), "{longer:?}");
+        assert_eq!(longer[4..], start[4..]);
+    }
+}
+
+/// Differences along the tangent give the Jacobian that the derivatives of the equations give, also at an orientation whose
+/// quaternion has three zeros.
+#[test]
+fn differences_along_the_tangent_take_the_steps_of_exact_derivatives() {
+    struct WithoutTangents<O>(O);
+    impl<O: Ode<f64, [f64; 8]>> Ode<f64, [f64; 8]> for WithoutTangents<O> {
+        fn derivative(&mut self, t: f64, y: &[f64; 8], dydt: &mut [f64; 8]) {
+            self.0.derivative(t, y, dydt);
+        }
+        fn project_onto_tangent(&self, y: &[f64; 8], direction: &mut [f64; 8]) {
+            self.0.project_onto_tangent(y, direction);
+        }
+        fn accepted(&mut self, t: f64, step: f64, y: &mut [f64; 8]) -> Accepted {
+            self.0.accepted(t, step, y)
+        }
+        fn error_norm(&self, tolerances: &Tolerances<'_, f64>, error: &[f64; 8], y: &[f64; 8], z: &[f64; 8]) -> f64 {
+            self.0.error_norm(tolerances, error, y, z)
+        }
+    }
+    let body = Body::new(&[0.0, 0.0, -9.81]);
+    let mut simulation = ForwardSimulation::new(&body, ZeroTorque);
+    let start: [f64; 8] = simulation.state(&[0.0, 0.0, 0.0, 1.0], &SPIN);
+    let method = Radau5::new().rtol(1e-6).atol(1e-9);
+    let exact = method.integrate(&mut simulation, (0.0, 1.0), start).expect("it turns");
+    let differences = method.integrate(&mut WithoutTangents(simulation), (0.0, 1.0), start).expect("it turns");
+    let off = exact.y.iter().zip(&differences.y).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+    assert_eq!(exact.statistics.steps, differences.statistics.steps);
+    assert!(off < 1e-6, "{off:e}");
 }

@@ -57,6 +57,15 @@ pub trait Ode<S, Y> {
         tolerances.norm(error, y, z)
     }
 
+    /// Projects `direction`, a small change of the state `y`, onto the tangent space of the states that the system can have.
+    /// By default every change is one of them. Implicit methods differentiate along projected directions: their Jacobian is
+    /// (∂f/∂y) P with this projection P.
+    ///
+    /// Simulations of a mechanism remove the change of the length of each quaternion: motions do not depend on it.
+    fn project_onto_tangent(&self, y: &Y, direction: &mut Y) {
+        let _ = (y, direction);
+    }
+
     /// Writes (∂f/∂y) `direction` at (t, y) to `slope` and returns `true`, if it can do that without differences; from
     /// such products implicit methods have their Jacobians. `false`, the default, leaves them to differences.
     fn tangent(&mut self, t: S, y: &Y, direction: &Y, slope: &mut Y) -> bool {

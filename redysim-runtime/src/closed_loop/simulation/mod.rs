@@ -277,6 +277,10 @@ where
         constrain_coordinates(self.loops.mechanism, state);
     }
 
+    fn project_onto_tangent(&self, state: &Y, direction: &mut Y) {
+        tangent::project(self.loops.mechanism, state, direction);
+    }
+
     fn error_norm(&self, tolerances: &Tolerances<'_, S>, error: &Y, y: &Y, z: &Y) -> S {
         tangent::error_norm(self.loops.mechanism, tolerances, error, (y, z))
     }

@@ -23,10 +23,11 @@ const ERROR_EXPONENT: u32 = 6;
 ///
 /// The method is L-stable: no step is too large for stability, only for accuracy (E. Hairer and G. Wanner, *Solving
 /// Ordinary Differential Equations II*, 2nd ed., Springer (1996), section IV.8, the source of all that follows). The
-/// stages are found by simplified Newton iteration, which takes the Jacobian ∂f/∂y from [`Ode::tangent`] or from
-/// differences, keeps it as long as the iteration converges fast, and decomposes one real and one complex matrix of the
-/// size of the state for each new step size or Jacobian. The start of the iteration and the sizes of the steps come
-/// from the collocation polynomial and from the errors of the last two steps.
+/// stages are found by simplified Newton iteration, which takes the Jacobian ∂f/∂y along the
+/// [tangent space](Ode::project_onto_tangent) of the states from [`Ode::tangent`] or from differences, keeps it as long as
+/// the iteration converges fast, and decomposes one real and one complex matrix of the size of the state for each new
+/// step size or Jacobian. The start of the iteration and the sizes of the steps come from the collocation polynomial and
+/// from the errors of the last two steps.
 ///
 /// The estimate e of the error has order 3. As the solution has order 5, it is not e but (10 e)^(3/2), of the order of
 /// the error of the step, that must meet the tolerance; where the equation is stiff, the error itself is the smaller.

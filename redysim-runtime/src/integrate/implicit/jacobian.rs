@@ -5,8 +5,9 @@ use crate::integrate::{IntegrationError, Ode};
 use crate::vector::entry;
 use crate::{Real, Vector};
 
-/// Evaluates ∂f/∂y at the state that is reached, where the derivative is `rate`, by rows: from the tangents of the
-/// equation, or from forward differences where it does not define them. `y_new` of the progress is used up.
+/// Evaluates (∂f/∂y) P at the state that is reached, where the derivative is `rate`, by rows, with the
+/// [projection](Ode::project_onto_tangent) P onto the tangent space: from the tangents of the equation, or from forward
+/// differences where it does not define them. `y_new` of the progress is used up.
 ///
 /// # Errors
 /// If an element is infinite or not a number.
@@ -21,13 +22,14 @@ pub fn jacobian<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
     let mut column = zeros(rate);
     let mut has_tangent = true;
     for j in 0..rate.as_ref().len() {
+        direction.as_mut().fill(S::zero());
+        set(&mut direction, j, S::one());
+        integration.ode.project_onto_tangent(&integration.progress.y, &mut direction);
         if has_tangent {
-            set(&mut direction, j, S::one());
             has_tangent = integration.ode.tangent(t, &integration.progress.y, &direction, &mut column);
-            set(&mut direction, j, S::zero());
         }
         if !has_tangent {
-            difference(integration, rate, j, &mut column)?;
+            difference(integration, rate, &direction, &mut column)?;
         }
         for (component, row) in rows.as_mut().iter_mut().enumerate() {
             let element = entry(&column, component);
@@ -40,25 +42,39 @@ pub fn jacobian<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
     Ok(())
 }
 
-/// Column `j` by a difference over √ε of the component, or of what the tolerances say is small.
+/// The derivative along `direction` by a difference over √ε of its largest component, or of what the tolerances say is
+/// small there.
 fn difference<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
     integration: &mut Integration<'_, S, Y, O>,
     rate: &Y,
-    j: usize,
-    column: &mut Y,
+    direction: &Y,
+    slope: &mut Y,
 ) -> Result<(), IntegrationError<S>> {
+    let Some((largest, size)) = largest(direction) else {
+        slope.as_mut().fill(S::zero());
+        return Ok(());
+    };
     let Integration { progress, tolerances, .. } = &mut *integration;
     progress.y_new.clone_from(&progress.y);
-    let Some(&old) = progress.y.as_ref().get(j) else { return Ok(()) };
-    let step = S::EPSILON.sqrt() * old.abs().maximum(tolerances.threshold(j));
-    let new = old + if old < S::zero() { -step } else { step };
-    set(&mut progress.y_new, j, new);
-    integration.evaluate(integration.progress.t, column)?;
-    for (element, &rate) in column.as_mut().iter_mut().zip(rate.as_ref()) {
+    let old = entry(&progress.y, largest);
+    let step = S::EPSILON.sqrt() * old.abs().maximum(tolerances.threshold(largest));
+    let step = if old < S::zero() { -step } else { step };
+    for (new, &part) in progress.y_new.as_mut().iter_mut().zip(direction.as_ref()) {
+        *new += step * (part / size);
+    }
+    let new = entry(&progress.y_new, largest);
+    integration.evaluate(integration.progress.t, slope)?;
+    for (element, &rate) in slope.as_mut().iter_mut().zip(rate.as_ref()) {
         // The difference that was taken, not the one that was meant.
-        *element = (*element - rate) / (new - old);
+        *element = (*element - rate) / (new - old) * size;
     }
     Ok(())
+}
+
+/// The component with the largest magnitude and its value; `None` of zeros.
+fn largest<S: Real, Y: Vector<S>>(direction: &Y) -> Option<(usize, S)> {
+    let components = direction.as_ref().iter().copied().enumerate().filter(|(_, part)| *part != S::zero());
+    components.reduce(|most, other| if other.1.abs() > most.1.abs() { other } else { most })
 }
 
 fn set<S, Y: AsMut<[S]>>(vector: &mut Y, index: usize, value: S) {

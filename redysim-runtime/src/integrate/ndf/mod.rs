@@ -25,8 +25,8 @@ pub use formula::NdfFormula;
 /// The formula of order k is Σ_{m=1}^k (1/m) ∇^m y_{n+1} − h f(t_{n+1}, y_{n+1}) − κ γ_k ∇^{k+1} y_{n+1} = 0, with
 /// backward differences ∇, γ_k = Σ_{j=1}^k 1/j and the κ of L. F. Shampine, M. W. Reichelt, *The MATLAB ODE Suite*,
 /// SIAM J. Sci. Comput. 18 (1997), section 2. It is solved by a simplified Newton iteration with the Jacobian ∂f/∂y
-/// from [`Ode::tangent`] or else from differences; a new Jacobian is evaluated only where the iteration does not
-/// converge, and a matrix decomposed only for that and for another size or order. A step of n components costs one or
+/// along the [tangent space](Ode::project_onto_tangent) from [`Ode::tangent`] or else from differences; a new Jacobian is
+/// evaluated only where the iteration does not converge, and a matrix decomposed only for that and for another size or order. A step of n components costs one or
 /// two evaluations and n² operations, a Jacobian n tangents or n + 1 evaluations, a decomposition n³/3 operations;
 /// there is room for two matrices and 18 vectors.
 ///
