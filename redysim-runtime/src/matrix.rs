@@ -80,7 +80,7 @@ impl<'m, S: Scalar> Elements<'m, S> {
     /// Writes zeros into the next `count` elements.
     #[inline(always)]
     pub fn zeros(&mut self, count: usize) {
-        self.write_all(count, S::zero());
+        self.write_all(count, S::opaque_zero());
     }
 
     /// Writes zeros into the elements that are left.
@@ -121,6 +121,32 @@ mod tests {
             elements.finish()
         });
         assert_eq!(matrix, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    }
+
+    #[test]
+    #[cfg(feature = "lanes")]
+    fn zeros_of_lanes_are_zero_in_every_lane() {
+        use crate::lanes::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+        fn check<S: Scalar + PartialEq + core::fmt::Debug>() {
+            let one = S::one();
+            let matrix: [[S; 5]; 3] = write_matrix(|matrix| {
+                let mut elements = matrix.elements();
+                elements.zeros(4);
+                elements.push(one);
+                elements.zeros(6);
+                elements.push(one);
+                elements.finish()
+            });
+            let mut expected = [[S::from_f64(0.0); 5]; 3];
+            (expected[0][4], expected[2][1]) = (one, one);
+            assert_eq!(matrix, expected);
+        }
+        check::<F64x2>();
+        check::<F64x4>();
+        check::<F64x8>();
+        check::<F32x4>();
+        check::<F32x8>();
+        check::<F32x16>();
     }
 
     #[test]

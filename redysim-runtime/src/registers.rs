@@ -29,9 +29,16 @@ pub trait Register: Copy {
     fn apart(self) -> Self {
         self
     }
+
+    /// The same bits, of which the compiler no longer knows what they are, where the target has vectors of 256 bits.
+    #[inline(always)]
+    fn opaque(self) -> Self {
+        self
+    }
 }
 
 /// Implements [`Register`] without a barrier, for numbers that are not joined on the target.
+#[cfg(not(all(target_arch = "x86_64", target_feature = "avx")))]
 macro_rules! without_barrier {
     ($($number:ty),*) => {$(
         impl Register for $number {}
@@ -41,11 +48,16 @@ macro_rules! without_barrier {
 /// Implements [`Register`] with empty assembly as the barrier.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
 macro_rules! with_barrier {
-    ($($number:ty, $register:ty, $class:ident;)*) => {$(
+    ($($number:ty, $register:ty, $class:ident, apart: $apart:expr;)*) => {$(
         impl Register for $number {
             #[inline(always)]
-            #[allow(unsafe_code)]
             fn apart(self) -> Self {
+                if $apart { self.opaque() } else { self }
+            }
+
+            #[inline(always)]
+            #[allow(unsafe_code)]
+            fn opaque(self) -> Self {
                 let mut register: $register = bytemuck::cast(self);
                 // SAFETY: the assembly is a comment. So it reads and writes no memory (`nomem`), uses no stack
                 // (`nostack`), changes no flag (`preserves_flags`), does the same whenever it is run (`pure`), and
@@ -59,24 +71,40 @@ macro_rules! with_barrier {
     )*};
 }
 
-// Into 256 bits.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
 with_barrier! {
-    wide::f64x2, x86_64::__m128d, xmm_reg;
-    wide::f32x4, x86_64::__m128, xmm_reg;
+    wide::f64x2, x86_64::__m128d, xmm_reg, apart: true;
+    wide::f32x4, x86_64::__m128, xmm_reg, apart: true;
+    wide::f64x4, x86_64::__m256d, ymm_reg, apart: JOINED;
+    wide::f32x8, x86_64::__m256, ymm_reg, apart: JOINED;
+    f64, f64, xmm_reg, apart: JOINED;
+    f32, f32, xmm_reg, apart: JOINED;
 }
 #[cfg(not(all(target_arch = "x86_64", target_feature = "avx")))]
-without_barrier!(wide::f64x2, wide::f32x4);
+without_barrier!(wide::f64x2, wide::f32x4, wide::f64x4, wide::f32x8, f64, f32);
 
-// Into 512 bits.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
 with_barrier! {
-    f32, f32, xmm_reg;
-    f64, f64, xmm_reg;
-    wide::f64x4, x86_64::__m256d, ymm_reg;
-    wide::f32x8, x86_64::__m256, ymm_reg;
+    wide::f64x8, x86_64::__m512d, zmm_reg, apart: false;
+    wide::f32x16, x86_64::__m512, zmm_reg, apart: false;
 }
-#[cfg(not(all(target_arch = "x86_64", target_feature = "avx512f")))]
-without_barrier!(f32, f64, wide::f64x4, wide::f32x8);
 
-without_barrier!(wide::f64x8, wide::f32x16);
+/// Implements [`Register`] for two registers.
+#[cfg(not(all(target_arch = "x86_64", target_feature = "avx512f")))]
+macro_rules! of_halves {
+    ($($number:ty, $half:ty;)*) => {$(
+        impl Register for $number {
+            #[inline(always)]
+            fn opaque(self) -> Self {
+                let halves: [$half; 2] = bytemuck::cast(self);
+                bytemuck::cast(halves.map(Register::opaque))
+            }
+        }
+    )*};
+}
+
+#[cfg(not(all(target_arch = "x86_64", target_feature = "avx512f")))]
+of_halves! {
+    wide::f64x8, wide::f64x4;
+    wide::f32x16, wide::f32x8;
+}

@@ -80,6 +80,14 @@ pub trait Scalar:
         numbers
     }
 
+    /// Zero. Lanes hide its value from the compiler, which would call `memset` for several zeros in a row: all lanes would have
+    /// to be saved around the call.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn opaque_zero() -> Self {
+        Self::zero()
+    }
+
     /// The results of the [`Branches`] `B`, a row for each.
     #[doc(hidden)]
     #[inline(always)]

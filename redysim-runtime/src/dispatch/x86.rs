@@ -22,6 +22,7 @@ use crate::trigonometry::in_turn::in_turn;
 use crate::trigonometry::reduction::Reduced;
 use crate::trigonometry::several::several;
 use crate::trigonometry::{double, fast_path, single, turns};
+use core::arch::asm;
 use core::arch::x86_64::*;
 use core::fmt;
 use core::mem::MaybeUninit;
@@ -207,7 +208,7 @@ numbers! {
 
 /// The instructions of one kind of vector. Bits are those of integers as wide as the numbers.
 macro_rules! lanes {
-    ($(#[$documentation:meta])* $name:ident($register:ident): $width:literal of $float:ident ($number:ident) by $features:literal,
+    ($(#[$documentation:meta])* $name:ident($register:ident in $class:ident): $width:literal of $float:ident ($number:ident) by $features:literal,
      $kernel:ident, $splat:ident, $load:ident, $store:ident, $sqrt:ident, $min:ident, $fused:ident,
      [$($operator:ident $operation:ident $instruction:ident),*],
      bits: $to_bits:ident, $from_bits:ident, $splat_bits:ident, $and:ident, $xor:ident, $plus:ident, $minus:ident,
@@ -345,6 +346,21 @@ macro_rules! lanes {
                     self * factor + addend
                 }
             }
+
+            #[inline(always)]
+            fn opaque_zero() -> Self {
+                #[target_feature(enable = $features)]
+                #[inline]
+                fn opaque(mut zero: $register) -> $register {
+                    // SAFETY: the assembly is a comment, which leaves its operand as it was, as in `registers`.
+                    unsafe {
+                        asm!("/* {0} */", inout($class) zero, options(pure, nomem, nostack, preserves_flags));
+                    }
+                    zero
+                }
+                // SAFETY: see the head of the file.
+                Self(unsafe { opaque($splat(0.0)) })
+            }
         }
 
         impl Angle for $name {
@@ -400,7 +416,7 @@ macro_rules! lanes {
 
 lanes! {
     /// Four `f64`.
-    Avx2F64x4(__m256d): 4 of f64 (Avx2F64) by "avx2,fma,bmi1,bmi2", double,
+    Avx2F64x4(__m256d in ymm_reg): 4 of f64 (Avx2F64) by "avx2,fma,bmi1,bmi2", double,
     _mm256_set1_pd, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd, _mm256_min_pd, _mm256_fmadd_pd,
     [Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd],
     bits: _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_set1_epi64x,
@@ -410,7 +426,7 @@ lanes! {
 
 lanes! {
     /// Eight `f32`.
-    Avx2F32x8(__m256): 8 of f32 (Avx2F32) by "avx2,fma,bmi1,bmi2", single,
+    Avx2F32x8(__m256 in ymm_reg): 8 of f32 (Avx2F32) by "avx2,fma,bmi1,bmi2", single,
     _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_sqrt_ps, _mm256_min_ps, _mm256_fmadd_ps,
     [Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps],
     bits: _mm256_castps_si256, _mm256_castsi256_ps, _mm256_set1_epi32,
@@ -420,7 +436,7 @@ lanes! {
 
 lanes! {
     /// Eight `f64`.
-    Avx512F64x8(__m512d): 8 of f64 (Avx2F64) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
+    Avx512F64x8(__m512d in zmm_reg): 8 of f64 (Avx2F64) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
     double,
     _mm512_set1_pd, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd, _mm512_min_pd, _mm512_fmadd_pd,
     [Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd],
@@ -431,7 +447,7 @@ lanes! {
 
 lanes! {
     /// Sixteen `f32`.
-    Avx512F32x16(__m512): 16 of f32 (Avx2F32) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
+    Avx512F32x16(__m512 in zmm_reg): 16 of f32 (Avx2F32) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
     single,
     _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps, _mm512_sqrt_ps, _mm512_min_ps, _mm512_fmadd_ps,
     [Add add _mm512_add_ps, Sub sub _mm512_sub_ps, Mul mul _mm512_mul_ps, Div div _mm512_div_ps],

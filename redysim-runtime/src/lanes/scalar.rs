@@ -40,6 +40,11 @@ macro_rules! scalar {
             }
 
             #[inline(always)]
+            fn opaque_zero() -> Self {
+                Self(Register::opaque(Self::zero().0))
+            }
+
+            #[inline(always)]
             fn apart<const N: usize>(mut numbers: [Self; N]) -> [Self; N] {
                 for number in &mut numbers {
                     number.0 = Register::apart(number.0);

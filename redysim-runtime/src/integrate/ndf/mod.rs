@@ -26,9 +26,9 @@ pub use formula::NdfFormula;
 /// backward differences ∇, γ_k = Σ_{j=1}^k 1/j and the κ of L. F. Shampine, M. W. Reichelt, *The MATLAB ODE Suite*,
 /// SIAM J. Sci. Comput. 18 (1997), section 2. It is solved by a simplified Newton iteration with the Jacobian ∂f/∂y
 /// along the [tangent space](Ode::project_onto_tangent) from [`Ode::tangent`] or else from differences; a new Jacobian is
-/// evaluated only where the iteration does not converge, and a matrix decomposed only for that and for another size or order. A step of n components costs one or
-/// two evaluations and n² operations, a Jacobian n tangents or n + 1 evaluations, a decomposition n³/3 operations;
-/// there is room for two matrices and 18 vectors.
+/// evaluated only where the iteration does not converge, and a matrix decomposed only for that and for another size or
+/// order. A step of n components costs one or two evaluations and n² operations, a Jacobian n tangents or n + 1
+/// evaluations, a decomposition n³/3 operations; there is room for two matrices and 18 vectors.
 ///
 /// Size and order change only where the estimated error pays for it, and not before k + 2 steps of one size. Between
 /// the ends of its steps the solution is the polynomial of degree k through the ends of the last k steps, continuous,
