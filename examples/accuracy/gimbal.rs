@@ -64,6 +64,9 @@ impl<Y: Vector<f64>, O: Ode<f64, Y>> Ode<f64, Y> for Uncorrected<O> {
     fn error_norm(&self, tolerances: &Tolerances<'_, f64>, error: &Y, y: &Y, z: &Y) -> f64 {
         self.0.error_norm(tolerances, error, y, z)
     }
+    fn project_onto_tangent(&self, y: &Y, direction: &mut Y) {
+        self.0.project_onto_tangent(y, direction);
+    }
     fn tangent(&mut self, t: f64, y: &Y, direction: &Y, slope: &mut Y) -> bool {
         self.0.tangent(t, y, direction, slope)
     }

@@ -57,6 +57,11 @@ await inBrowser(join(folder, "animation.html"), GL, { width: 1280, height: 800 }
   const cut = scales.filter((other) => other < scale * (1 - 10 * SINGLE)).length;
   assert.ok(cut < scales.length / 4, `${cut} of ${scales.length} arrows are shorter than their forces`);
   assert.ok(new Set(prints).size > 1, "footprints must become visible on the way");
+  for (const plane of planes.length > 1 ? planes : []) {
+    const own = names.filter((name, contact) => planes[contact].axis === plane.axis);
+    const events = own.flatMap((name) => touchDowns(name, names.indexOf(name)));
+    assert.ok(events.length > 0, `a contact touches the plane across ${"xyz"[plane.axis]}`);
+  }
   await theLayerHidesThem(page);
 });
 console.log(`${folder}: forces and footprints are those of the contacts`);

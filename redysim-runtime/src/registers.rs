@@ -7,6 +7,8 @@
 //! the scalar code around it 40 ns, more than a whole call of the inverse dynamics of six joints. LLVM has no option
 //! for it that a crate could set for its users, so numbers pass through [`Register::apart`], an optimisation barrier,
 //! which LLVM cannot look into: what comes out of it has no known neighbours.
+//!
+//! Lanes pass the zeros of large matrices through [`Register::opaque`], so that LLVM does not call `memset` for them.
 
 #[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
 use core::arch::{asm, x86_64};
@@ -37,7 +39,7 @@ pub trait Register: Copy {
     }
 }
 
-/// Implements [`Register`] without a barrier, for numbers that are not joined on the target.
+/// Implements [`Register`] without a barrier, for targets without vectors of 256 bits.
 #[cfg(not(all(target_arch = "x86_64", target_feature = "avx")))]
 macro_rules! without_barrier {
     ($($number:ty),*) => {$(
@@ -45,7 +47,8 @@ macro_rules! without_barrier {
     )*};
 }
 
-/// Implements [`Register`] with empty assembly as the barrier.
+/// Implements [`Register`] with empty assembly as the barrier. `apart` is whether the target has wider vectors, into which LLVM
+/// would join these.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
 macro_rules! with_barrier {
     ($($number:ty, $register:ty, $class:ident, apart: $apart:expr;)*) => {$(
@@ -89,7 +92,7 @@ with_barrier! {
     wide::f32x16, x86_64::__m512, zmm_reg, apart: false;
 }
 
-/// Implements [`Register`] for two registers.
+/// Implements [`Register`] for vectors of 512 bits by their halves, where no register is as large.
 #[cfg(not(all(target_arch = "x86_64", target_feature = "avx512f")))]
 macro_rules! of_halves {
     ($($number:ty, $half:ty;)*) => {$(

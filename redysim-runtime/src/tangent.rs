@@ -1,4 +1,4 @@
-//! Small changes of a configuration as velocities: errors of coordinates, weighed on the tangent, and slopes of
+//! Small changes of a configuration on the tangent: as velocities, errors of coordinates, projections, and slopes of
 //! differences.
 
 use core::ops::Range;

@@ -287,6 +287,9 @@ impl<O: Ode<f64, [f64; 8]>> Ode<f64, [f64; 8]> for Uncorrected<O> {
     fn check_lengths(&self, t: f64, y: &[f64; 8]) -> Result<(), LengthMismatch> {
         self.0.check_lengths(t, y)
     }
+    fn project_onto_tangent(&self, y: &[f64; 8], direction: &mut [f64; 8]) {
+        self.0.project_onto_tangent(y, direction);
+    }
     fn tangent(&mut self, t: f64, y: &[f64; 8], direction: &[f64; 8], slope: &mut [f64; 8]) -> bool {
         self.0.tangent(t, y, direction, slope)
     }

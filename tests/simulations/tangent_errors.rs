@@ -192,7 +192,7 @@ fn an_error_of_an_orientation_is_as_large_as_its_angle() {
     }
 }
 
-/// The quaternion of a state whose first coordinates it is, times that of another or of a direction.
+/// The inner product of the quaternion of `y` and the same components of `direction`.
 fn along_quaternion(y: &[f64; 8], direction: &[f64; 8]) -> f64 {
     (0..4).map(|i| y[i] * direction[i]).sum()
 }

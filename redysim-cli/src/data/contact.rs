@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The ground, or a wall: a plane.
+/// A plane that contacts meet: the ground, or a wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ground {

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::bodies::{self, Body};
 use super::footprints::TouchDowns;
-use super::planes::{Meeting, Plane, met};
+use super::planes::{Plane, PlaneContact, meets_ground, planes_and_contacts};
 use crate::data::Results;
 use crate::failure::Failure;
 use crate::layout::Layout;
@@ -21,7 +21,9 @@ const NUMBERS: usize = 60_000;
 /// The ground and its contacts over time.
 #[derive(Serialize)]
 pub struct Contacts {
-    /// The ground, then the other planes that contacts meet.
+    /// Whether the first plane is the ground of the scenario.
+    ground: bool,
+    /// The ground, if a contact meets it, then the other planes.
     planes: Vec<Plane>,
     /// The instants of the forces, s.
     t: Vec<f64>,
@@ -53,16 +55,16 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<Option<
     let (Some(table), Some(motion)) = (recorded.table(names::CONTACTS)?, recorded.motion()?) else { return Ok(None) };
     let Results { scenario, run, .. } = Results::load(recorded.folder())?;
     let touch_downs = TouchDowns::of(recorded)?;
-    let (planes, contacts) = met(&scenario)?;
+    let (planes, contacts) = planes_and_contacts(&scenario)?;
     let mechanism = GenericMechanism::new(model.clone());
     let q = positions(&motion, layout);
     let at_rest = vec![0.0; layout.nv()];
     let origins: Vec<Vec<[f64; 3]>> =
         q.iter().map(|q| mechanism.frame_kinematics(q, &at_rest).iter().map(|state| state.origin).collect()).collect();
-    let rows = evenly(table.t.len(), NUMBERS / (3 * model.frames.len()).max(1));
+    let rows = evenly(table.t.len(), NUMBERS / (3 * contacts.len()).max(1));
     let of_frames: Vec<_> = bodies::frames(model).into_iter().skip(model.links.len()).collect();
     let mut places = Vec::new();
-    for (contact, Meeting { name, frame, plane }) in contacts.into_iter().enumerate() {
+    for (contact, PlaneContact { name, frame, plane }) in contacts.into_iter().enumerate() {
         let Some(number) = model.frames.iter().position(|of| of.name == frame) else { continue };
         let column = |symbol: &str| table.of(symbol).find(|column| column.name == name).map(|column| &column.values);
         let (Some(x), Some(y), Some(z)) = (column("force_x"), column("force_y"), column("force_z")) else { continue };
@@ -88,7 +90,7 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<Option<
         places.iter().flat_map(|place| &place.footprints).filter(|[t, ..]| *t > table.t[0]).count() as u64;
     let without_record = run.touch_downs.filter(|_| touch_downs.is_none());
     let lost = without_record.map_or(0, |count| count.saturating_sub(after_start));
-    Ok(Some(Contacts { planes, t, places, lost }))
+    Ok(Some(Contacts { ground: meets_ground(&scenario), planes, t, places, lost }))
 }
 
 impl Contacts {

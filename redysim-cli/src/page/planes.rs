@@ -25,7 +25,7 @@ impl Plane {
         Ok(Plane { point, normal: plane.normal(), plane })
     }
 
-    /// A footprint: when, s, and the place on the plane below or above `place`, m.
+    /// A footprint: when, s, and the point of the plane nearest to `place`, m.
     pub fn footprint(&self, (t, place): (f64, [f64; 3])) -> [f64; 4] {
         let height = self.plane.height(&place);
         let [x, y, z] = [0, 1, 2].map(|axis| place[axis] - height * self.normal[axis]);
@@ -34,7 +34,7 @@ impl Plane {
 }
 
 /// A contact of a scenario.
-pub struct Meeting<'s> {
+pub struct PlaneContact<'s> {
     pub name: &'s str,
     pub frame: &'s str,
     /// The number of the plane that it meets.
@@ -44,24 +44,28 @@ pub struct Meeting<'s> {
 /// The contacts of a scenario, and the planes that they meet: the ground of the scenario, if one meets it, then the others.
 ///
 /// # Errors
-/// If a plane has no direction.
-pub fn met(scenario: &Scenario) -> Result<(Vec<Plane>, Vec<Meeting<'_>>), Failure> {
-    let contacts: Vec<_> = scenario.contact.iter().flatten().map(parts).collect();
+/// If a normal is zero.
+pub fn planes_and_contacts(scenario: &Scenario) -> Result<(Vec<Plane>, Vec<PlaneContact<'_>>), Failure> {
     let ground = scenario.ground.unwrap_or_default();
     let mut planes = Vec::new();
-    if contacts.iter().any(|(_, own)| own.is_none()) {
+    if meets_ground(scenario) {
         planes.push(Plane::of(ground)?);
     }
-    let mut met = Vec::new();
-    for (frames, own) in contacts {
+    let mut contacts = Vec::new();
+    for (frames, own) in scenario.contact.iter().flatten().map(parts) {
         let plane = Plane::of(own.unwrap_or(ground))?;
         let number = planes.iter().position(|other| *other == plane).unwrap_or(planes.len());
         if number == planes.len() {
             planes.push(plane);
         }
-        met.extend(frames.into_iter().map(|(name, frame)| Meeting { name, frame, plane: number }));
+        contacts.extend(frames.into_iter().map(|(name, frame)| PlaneContact { name, frame, plane: number }));
     }
-    Ok((planes, met))
+    Ok((planes, contacts))
+}
+
+/// Whether a contact meets the ground of the scenario.
+pub fn meets_ground(scenario: &Scenario) -> bool {
+    scenario.contact.iter().flatten().any(|contact| parts(contact).1.is_none())
 }
 
 /// The contacts of a table `contact`, by name and frame, and their own ground.

@@ -38,15 +38,18 @@ impl Contacts {
             let array = reader.array(path, value, "an array of tables, each headed `[[contact]]`")?;
             reader.elements(path, array, |reader, path, value| Table::read(reader, path, value, model))
         });
-        let without_contact = matches!(field, Field::Missing);
         let tables = field.value_or(vec![])?;
         let meet_ground = tables.iter().any(|table| table.plane.is_none());
         if let Field::Value(given) = &ground
             && !meet_ground
         {
-            let why = if without_contact { "the scenario has no contact" } else { "each has a `ground` of its own" };
+            let (why, add) = if tables.is_empty() {
+                ("the scenario has no contact", "add tables `[[contact]]`")
+            } else {
+                ("each has a `ground` of its own", "leave `ground` out of a contact that meets it")
+            };
             let title = format!("{}: `ground` applies only to contacts, and {why}", reader.item());
-            let help = "add tables `[[contact]]` without one, or leave it out".to_owned();
+            let help = format!("{add}, or leave it out of the scenario");
             reader.warning_at(given.span(), Message { title, label: "without effect".into(), help });
         }
         let usual = || GroundPlane::new(USUAL_POINT, USUAL_NORMAL).ok();

@@ -218,14 +218,14 @@ pub const FORCE_FILE: Key =
 pub const GROUND: Key = Key::of_table(
     "ground",
     "{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }",
-    "the plane that the frames of `contact` meet, in the base frame",
+    "the plane that contacts without a `ground` of their own meet, in the base frame",
     &[&GROUND_KEYS],
 )
 .with_default("the plane z = 0, with the free side above");
 pub const CONTACT_GROUND: Key = Key::of_table(
     "ground",
     "{ point = [2.0, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }",
-    "the plane that it meets instead, such as a wall",
+    "the plane that the contact meets, such as a wall",
     &[&GROUND_KEYS],
 )
 .with_default("`ground` of the scenario");

@@ -194,6 +194,11 @@ fn a_ball_leaves_a_wall_as_it_leaves_the_floor() {
     assert!((-2.0..-1.5).contains(&last[8]), "{last:?}");
     let drift = energy.column("drift [J]");
     assert!(drift.iter().all(|drift| drift.abs() < 1e-8), "{drift:?}");
+    succeed(&folder, &["animate", "run", "--quiet"]);
+    let page = data(&fs::read_to_string(folder.join("run/animation.html")).unwrap());
+    let [ground, wall] = [([0.0, 0.0, 0.0], [0.0, 0.0, 1.0]), ([2.0, 5.0, 5.0], [-1.0, 0.0, 0.0])]
+        .map(|(point, normal)| serde_json::json!({ "point": point, "normal": normal }));
+    assert_eq!(page["contacts"]["planes"], serde_json::json!([ground, wall]));
     // What the run has read is what it writes.
     let again = fs::read_to_string(folder.join("run/run.toml")).unwrap();
     assert!(again.contains("normal = [-3, 0, 0]"), "{again}");

@@ -21,5 +21,5 @@ export class Base {
 
 /** The base that moves, with the mechanism at its start; null where there is none. */
 export function movingBase({ base, contacts }, linkage) {
-  return base === null ? null : new Base(base, linkage, contacts?.planes[0].normal);
+  return base === null ? null : new Base(base, linkage, contacts?.ground ? contacts.planes[0].normal : undefined);
 }

@@ -79,6 +79,7 @@ fn all_operations_are_the_same<T: Bits, L: Lanes<T, W>, const W: usize>() {
     same::<T, L, W>("sine", |a, _, _| a.sin_cos().0, |a, _, _| a.sin_cos().0);
     same::<T, L, W>("cosine", |a, _, _| a.sin_cos().1, |a, _, _| a.sin_cos().1);
     same::<T, L, W>("constant", |_, _, _| L::from_f64(0.1), |_, _, _| T::from_f64(0.1));
+    same::<T, L, W>("zero", |_, _, _| L::opaque_zero(), |_, _, _| T::from_f64(0.0));
     let assigned = |mut a: L, b: L| {
         a += b;
         a -= b * b;

@@ -2,8 +2,9 @@
 //!
 //! # Safety
 //!
-//! Every `unsafe` block of this file, but for one that reads what was just written and has its own proof, calls a function
-//! that is compiled for target features which the program is not compiled for; that is undefined on a processor without them, and harmless on one that has them. The types are
+//! Every `unsafe` block of this file calls a function that is compiled for target features which the program is not compiled
+//! for, but for two that have their own proofs: one reads what was just written, the other is assembly without instructions.
+//! Such a call is undefined on a processor without the features, and harmless on one that has them. The types are
 //! private to this crate, and so are the traits through which generic code of this crate reaches them, so that no other
 //! crate can name them, make a value of one, or call a function for one. This crate does so in two places,
 //! [`batch`](crate::batch) and [`Dispatched`](super::Dispatched), both behind
@@ -352,7 +353,8 @@ macro_rules! lanes {
                 #[target_feature(enable = $features)]
                 #[inline]
                 fn opaque(mut zero: $register) -> $register {
-                    // SAFETY: the assembly is a comment, which leaves its operand as it was, as in `registers`.
+                    // SAFETY: the assembly is a comment: it has no effect that the options exclude, and leaves its operand as it
+                    // was.
                     unsafe {
                         asm!("/* {0} */", inout($class) zero, options(pure, nomem, nostack, preserves_flags));
                     }

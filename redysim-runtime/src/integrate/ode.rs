@@ -58,10 +58,11 @@ pub trait Ode<S, Y> {
     }
 
     /// Projects `direction`, a small change of the state `y`, onto the tangent space of the states that the system can have.
-    /// By default every change is one of them. Implicit methods differentiate along projected directions: their Jacobian is
-    /// (∂f/∂y) P with this projection P.
+    /// By default, all directions are tangent. [`Ode15s`](crate::Ode15s), [`Radau5`](crate::Radau5) and
+    /// [`largest_stable_step`](crate::integrate::stability::largest_stable_step) differentiate along projected directions: their
+    /// Jacobian is (∂f/∂y) P with this projection P. An equation that wraps another one forwards this method.
     ///
-    /// Simulations of a mechanism remove the change of the length of each quaternion: motions do not depend on it.
+    /// Simulations of a mechanism remove from a direction the change of length of each quaternion, which no motion has.
     fn project_onto_tangent(&self, y: &Y, direction: &mut Y) {
         let _ = (y, direction);
     }

@@ -1,51 +1,59 @@
-//! Joints in Euler angles that come near their gimbal, where the first and the third axis are parallel and the angles change
+//! Joints in Euler angles that come near gimbal lock, where the first and the third axis are parallel and the angles change
 //! arbitrarily fast.
 
 use crate::layout::{Joint, Layout};
 use crate::number::size;
 
-/// |cos θ| of the second angle, or |sin θ| where the first and the third axis are the same, below which a run that goes wrong may
-/// do so because of the gimbal: within 3°.
+/// The sine of the angle between the first and the third axis below which a run that goes wrong may do so because of gimbal
+/// lock: within 3°.
 const NEAR: f64 = 0.05;
 
-/// How near the joints of a run have come to their gimbals.
-#[derive(Default)]
-pub struct Gimbals {
+/// How near the joints of a run have come to gimbal lock.
+pub struct Gimbals<'a> {
+    /// The velocities of the joints whose motion is prescribed. Nothing fails where one of these is at its gimbal lock.
+    prescribed: &'a [usize],
     nearest: Option<Approach>,
 }
 
-/// A joint beside its gimbal.
+/// The nearest that a joint has come to gimbal lock.
 struct Approach {
     joint: String,
     t: f64,
-    distance: f64,
+    sine: f64,
 }
 
-impl Gimbals {
+impl<'a> Gimbals<'a> {
+    /// Of a run in which the motion along the velocities `prescribed` is given.
+    pub fn new(prescribed: &'a [usize]) -> Self {
+        Gimbals { prescribed, nearest: None }
+    }
+
     /// Looks at the position `q` at `t`.
     pub fn see(&mut self, layout: &Layout, t: f64, q: &[f64]) {
         for joint in &layout.joints {
-            let Some(distance) = distance(joint, q) else { continue };
-            if distance < self.nearest.as_ref().map_or(NEAR, |nearest| nearest.distance) {
-                self.nearest = Some(Approach { joint: joint.name.clone(), t, distance });
+            let Some(sine) = sine(joint, q) else { continue };
+            let is_prescribed = joint.v.clone().all(|velocity| self.prescribed.contains(&velocity));
+            if !is_prescribed && sine < self.nearest.as_ref().map_or(NEAR, |nearest| nearest.sine) {
+                self.nearest = Some(Approach { joint: joint.name.clone(), t, sine });
             }
         }
     }
 
-    /// What to do about a run that goes wrong, if a joint has come near its gimbal.
+    /// What to do about a run that goes wrong, if a joint has come near gimbal lock.
     pub fn advice(&self) -> Option<String> {
-        let Approach { joint, t, distance } = self.nearest.as_ref()?;
+        let Approach { joint, t, sine } = self.nearest.as_ref()?;
         Some(format!(
-            "the Euler angles of the joint `{joint}` are {}° from their gimbal at t = {} s, near which they change \
-             arbitrarily fast: leave `coordinates` of its link out of the model, so that the joint has a quaternion",
-            size(distance.asin().to_degrees()),
-            size(*t)
+            "at t = {} s the Euler angles of the joint `{joint}` are {}° from gimbal lock, near which they change arbitrarily \
+             fast: leave `coordinates` of its link out of the model, so that the joint has a quaternion, and its velocities \
+             are the angular velocity",
+            size(*t),
+            size(sine.asin().to_degrees())
         ))
     }
 }
 
 /// The sine of the angle between the first and the third axis of a joint in Euler angles.
-fn distance(joint: &Joint, q: &[f64]) -> Option<f64> {
+fn sine(joint: &Joint, q: &[f64]) -> Option<f64> {
     let [first, _, third] = joint.euler_sequence()?.axes();
     let theta = q.get(joint.q.end - 2)?;
     Some(if first == third { theta.sin() } else { theta.cos() }.abs())
@@ -68,7 +76,7 @@ mod tests {
     }
 
     fn advice(layout: &Layout, second_angles: &[f64]) -> Option<String> {
-        let mut gimbals = Gimbals::default();
+        let mut gimbals = Gimbals::new(&[]);
         for (t, &theta) in second_angles.iter().enumerate() {
             let mut q: Vec<f64> = layout.coordinates.iter().map(|_| 0.4).collect();
             let place = q.len() - 2;
@@ -79,22 +87,39 @@ mod tests {
     }
 
     #[test]
-    fn the_advice_is_about_the_instant_that_is_nearest_to_the_gimbal() {
+    fn the_advice_is_about_the_instant_that_is_nearest_to_gimbal_lock() {
         let layout = layout("free", "coordinates = 'zxy'");
         let found = advice(&layout, &[0.3, FRAC_PI_2 - 0.01, 3.0 * FRAC_PI_2 + 1e-4, FRAC_PI_2 - 0.02]).unwrap();
-        assert!(found.contains("0.0057° from their gimbal at t = 2 s"), "{found}");
+        assert!(
+            found.starts_with("at t = 2 s the Euler angles of the joint `body` are 0.0057° from gimbal lock"),
+            "{found}"
+        );
     }
 
     #[test]
-    fn sequences_of_two_axes_have_their_gimbal_where_the_second_angle_is_zero() {
+    fn sequences_of_two_axes_lock_where_the_second_angle_is_zero() {
         let layout = layout("spherical", "coordinates = 'zxz'");
         assert!(advice(&layout, &[FRAC_PI_2]).is_none());
         assert!(advice(&layout, &[0.01]).is_some());
     }
 
     #[test]
-    fn motions_far_from_the_gimbal_and_quaternions_have_no_advice() {
+    fn motions_far_from_gimbal_lock_and_quaternions_have_no_advice() {
         assert!(advice(&layout("free", "coordinates = 'zxy'"), &[1.4, -1.4]).is_none());
         assert!(advice(&layout("free", ""), &[FRAC_PI_2]).is_none());
+    }
+
+    #[test]
+    fn a_joint_that_follows_a_motion_is_where_the_motion_has_it_and_has_no_advice() {
+        let layout = layout("free", "coordinates = 'zxy'");
+        let mut q: Vec<f64> = layout.coordinates.iter().map(|_| 0.4).collect();
+        q[4] = FRAC_PI_2;
+        let see = |prescribed: &[usize]| {
+            let mut gimbals = Gimbals::new(prescribed);
+            gimbals.see(&layout, 0.0, &q);
+            gimbals.advice()
+        };
+        assert!(see(&[0, 1, 2, 3, 4, 5]).is_none());
+        assert!(see(&[0, 1, 2, 3, 4]).is_some());
     }
 }

@@ -66,16 +66,16 @@ pub fn compute_into(
 ) -> Result<(Summary, Vec<String>), Failure> {
     let ground = scenario.ground();
     let mut record = Record::begin(sink, scenario, Dynamics::Forward, forward.span, quiet);
-    let (outcome, signs) = move_on(scenario, (forward, &ground), &mut record, quiet)?;
-    warn_of_drift(forward, &record, &signs);
+    let (outcome, diagnostics) = move_on(scenario, (forward, &ground), &mut record, quiet)?;
+    warn_of_drift(forward, &record, &diagnostics);
     record.end(outcome)
 }
 
-/// What a run shows of the reasons for which it may go wrong.
-struct Signs {
+/// What a run shows of why it may be wrong.
+struct Diagnostics<'a> {
     /// A motion that grows without bound.
     growth: Option<Growth>,
-    gimbals: Gimbals,
+    gimbals: Gimbals<'a>,
 }
 
 /// The motion from the start to the end, as far as it goes, and why it may be wrong.
@@ -84,7 +84,7 @@ fn move_on<'a>(
     (forward, ground): (&'a Forward, &'a Ground<'a>),
     record: &mut Record<'a>,
     quiet: bool,
-) -> Result<(Outcome, Signs), Failure> {
+) -> Result<(Outcome, Diagnostics<'a>), Failure> {
     let mut system = System::new(scenario, forward, ground);
     let start = system.start(scenario, forward, quiet)?;
     warn_of_step(scenario, forward, &mut system, &start, record);
@@ -106,7 +106,8 @@ fn move_on<'a>(
                 (Some(growth), _) if !growth.from_nowhere => {
                     failure.and(&format!("; {}", growth.warning)).help(&growth.help)
                 }
-                (_, Some(advice)) => failure.help(advice),
+                // A failure that has a remedy keeps it.
+                (_, Some(advice)) if failure.advice().is_empty() => failure.help(advice),
                 _ => failure,
             })
         }
@@ -126,7 +127,7 @@ fn move_on<'a>(
         position_residual: scenario.loops().then_some(position_residual),
         contacts: Some((ground.contacts().len(), touch_downs)).filter(|(contacts, _)| *contacts > 0),
     };
-    Ok((outcome, Signs { growth, gimbals }))
+    Ok((outcome, Diagnostics { growth, gimbals }))
 }
 
 /// Warns before the run that its steps are too large, if that is so at the start.
@@ -159,7 +160,7 @@ fn two_digits(value: f64) -> f64 {
 }
 
 /// Warns that a motion is wrong, if its energy shows it.
-fn warn_of_drift(forward: &Forward, record: &Record<'_>, Signs { growth, gimbals }: &Signs) {
+fn warn_of_drift(forward: &Forward, record: &Record<'_>, Diagnostics { growth, gimbals }: &Diagnostics<'_>) {
     if matches!(forward.stabilisation, Stabilisation::Baumgarte { .. }) {
         // While it closes loops, its feedback does work that is not counted.
         return;
@@ -170,7 +171,8 @@ fn warn_of_drift(forward: &Forward, record: &Record<'_>, Signs { growth, gimbals
     }
     let Balance { drift, .. } = record.balance();
     if let Some(part) = record.balance().wrong_part() {
-        let help = gimbals.advice().unwrap_or_else(|| smaller_steps(&forward.integrator));
+        let smaller = smaller_steps(&forward.integrator);
+        let help = gimbals.advice().map_or(smaller.clone(), |advice| format!("{advice}; or {smaller}"));
         let warning = format!(
             "the motion is wrong: {} J have come from nowhere, {:.0} % of the energy that was exchanged",
             size(*drift),

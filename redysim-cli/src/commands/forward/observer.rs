@@ -28,8 +28,8 @@ pub struct RunObserver<'a, 'r> {
     distances: Distances,
     /// A motion that grows without bound, when it is first seen.
     pub growth: Option<Growth>,
-    /// How near joints in Euler angles have come to their gimbals.
-    pub gimbals: Gimbals,
+    /// How near joints in Euler angles have come to gimbal lock.
+    pub gimbals: Gimbals<'a>,
     /// Why an instant could not be written.
     pub failed: Option<Failure>,
 }
@@ -55,7 +55,7 @@ impl<'a, 'r> RunObserver<'a, 'r> {
             position_residual: 0.0,
             distances: Distances::new(),
             growth: None,
-            gimbals: Gimbals::default(),
+            gimbals: Gimbals::new(forward.prescribed.as_ref().map_or(&[], |prescribed| &prescribed.velocities)),
             failed: None,
         };
         observer.write(forward.span.start, start)?;

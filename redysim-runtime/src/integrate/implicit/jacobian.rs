@@ -42,15 +42,15 @@ pub fn jacobian<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
     Ok(())
 }
 
-/// The derivative along `direction` by a difference over √ε of its largest component, or of what the tolerances say is
-/// small there.
+/// The derivative along `direction` by a forward difference: where the direction is largest, the state changes by √ε of its
+/// component, or of what the tolerances take as small.
 fn difference<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
     integration: &mut Integration<'_, S, Y, O>,
     rate: &Y,
     direction: &Y,
     slope: &mut Y,
 ) -> Result<(), IntegrationError<S>> {
-    let Some((largest, size)) = largest(direction) else {
+    let Some((largest, value)) = largest(direction) else {
         slope.as_mut().fill(S::zero());
         return Ok(());
     };
@@ -60,13 +60,13 @@ fn difference<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
     let step = S::EPSILON.sqrt() * old.abs().maximum(tolerances.threshold(largest));
     let step = if old < S::zero() { -step } else { step };
     for (new, &part) in progress.y_new.as_mut().iter_mut().zip(direction.as_ref()) {
-        *new += step * (part / size);
+        *new += step * (part / value);
     }
     let new = entry(&progress.y_new, largest);
     integration.evaluate(integration.progress.t, slope)?;
     for (element, &rate) in slope.as_mut().iter_mut().zip(rate.as_ref()) {
         // The difference that was taken, not the one that was meant.
-        *element = (*element - rate) / (new - old) * size;
+        *element = (*element - rate) / (new - old) * value;
     }
     Ok(())
 }

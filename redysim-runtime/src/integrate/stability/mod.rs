@@ -40,7 +40,7 @@ pub struct StableStep<S> {
     pub velocity: Option<usize>,
 }
 
-/// The Jacobian of an equation in a state.
+/// The Jacobian of an equation in a state, along its [tangent space](Ode::project_onto_tangent).
 pub struct Linearised<S: Real, Y: Vector<S>> {
     pub(super) rows: Y::Of<Y>,
     pub(super) eigenvalues: Row<S, Y>,
@@ -81,7 +81,7 @@ impl<S: Real, Y: Vector<S>> Linearised<S, Y> {
         self.eigenvalues.as_ref().iter().fold(S::zero(), |growth, value| growth.maximum(value.re))
     }
 
-    /// ∂f_i/∂y_j.
+    /// Element (i, j) of (∂f/∂y) P, with the projection P onto the tangent space.
     pub(super) fn element(&self, i: usize, j: usize) -> S {
         self.rows.as_ref().get(i).map_or(S::zero(), |row| entry(row, j))
     }
@@ -89,8 +89,8 @@ impl<S: Real, Y: Vector<S>> Linearised<S, Y> {
 
 /// Estimates the largest stable step of `method` for an equation, in the state `y` at `t`, before it runs.
 ///
-/// All eigenvalues of the Jacobian count, also those of undamped oscillations: of two that differ in size the smaller
-/// one may limit the step. What grows by itself is no fault of the method and limits nothing; where it also swings, it
+/// All eigenvalues of the Jacobian along the [tangent space](Ode::project_onto_tangent) count, also those of undamped
+/// oscillations: of two that differ in size the smaller one may limit the step. What grows by itself is no fault of the method and limits nothing; where it also swings, it
 /// is taken as if it only swung. The answer holds near `y`: where inertia or gains change along the motion, ask in
 /// several states. It costs one [tangent](Ode::tangent) or evaluation for each component, and about 25 n³ operations.
 ///
