@@ -5,7 +5,7 @@ mod elliptic;
 
 use std::fs;
 
-use crate::common::{Table, call, deviation, fail, root, scenario, scratch, succeed};
+use crate::common::{Table, deviation, fail, root, scenario, scratch, succeed};
 use elliptic::jacobi;
 
 /// The mass, kg, the moments of inertia about the axis of symmetry and across it at the fixed point, kg m², the spin
@@ -77,23 +77,9 @@ fn a_run_that_fails_in_gimbal_lock_advises_a_quaternion() {
         assert!(printed.contains(reason), "{printed}");
         assert!(printed.contains("at t = 0.37 s the Euler angles of the joint `pivot` are "), "{printed}");
         assert!(printed.contains("leave `coordinates` of its link out of the model"), "{printed}");
+        // Of energy that has come from nowhere, and within 3° of gimbal lock shorter steps may help as well.
+        let drifts = printed.contains("the motion is wrong: ");
+        assert_eq!(drifts, method == "Ode4", "{printed}");
+        assert_eq!(drifts, printed.contains("; or take a `step` of the integrator below 0.0001 s"), "{printed}");
     }
-}
-
-/// Within 3° of gimbal lock shorter steps help as well.
-#[test]
-fn a_run_that_drifts_beside_gimbal_lock_advises_a_quaternion_or_shorter_steps() {
-    let folder = scratch("heavy-top-drift");
-    let model = folder.join("top.toml");
-    fs::write(&model, format!("name = 'top'\ngravity = [0.0, 0.0, -9.81]\n{IN_ANGLES}")).unwrap();
-    let rest = format!(
-        "[initial]\nv = {{ pivot = [-4.61538, 0, {SPIN:?}] }}\n[forward]\nend = 0.3727\nstep = 0.01\n\
-         integrator = {{ method = 'Ode4', step = 1e-4 }}\ntorque = {{ law = 'free' }}\n"
-    );
-    let path = scenario(&folder, &model.display().to_string(), &rest);
-    let run = call(&folder, &["forward", &path, "-o", "run"]);
-    assert_eq!(run.code, 0, "{}", run.output());
-    assert!(run.stderr.contains("the motion is wrong: "), "{}", run.stderr);
-    assert!(run.stderr.contains("so that the joint has a quaternion"), "{}", run.stderr);
-    assert!(run.stderr.contains("; or take a `step` of the integrator below 0.0001 s"), "{}", run.stderr);
 }
