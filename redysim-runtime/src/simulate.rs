@@ -1,6 +1,7 @@
 //! Forward simulation: a mechanism and a torque law as an ordinary differential equation.
 
 use crate::integrate::{Accepted, Tolerances};
+use crate::linear_algebra::largest;
 use crate::tangent;
 use crate::vector::entry;
 use crate::{ConfigurationSpace, ForwardDynamics, LengthMismatch, Ode, Real, TorqueLaw, Vector};
@@ -313,7 +314,7 @@ fn torque_tangent<S: Real, M: ConfigurationSpace<S>>(
     if let Some(dtau) = law.torque_tangent(mechanism, t, (q, v), (dq, dv)) {
         return dtau;
     }
-    let [state, slope] = [(q, v), (dq, dv)].map(|(q, v)| largest(q.as_ref()).maximum(largest(v.as_ref())));
+    let [state, slope] = [(q, v), (dq, dv)].map(|(q, v)| largest(q.as_ref().iter().chain(v.as_ref()).copied()).0);
     central_difference(v.as_ref().len(), state, slope, |step| {
         law.torque(mechanism, t, &moved(q, dq, step), &moved(v, dv, step))
     })
@@ -327,7 +328,7 @@ fn coordinate_rates_tangent<S: Real, M: ConfigurationSpace<S>>(
     dq: &M::Coordinates,
 ) -> M::Coordinates {
     mechanism.coordinate_rates_tangent(q, v, dq).unwrap_or_else(|| {
-        let [position, slope] = [q, dq].map(|values| largest(values.as_ref()));
+        let [position, slope] = [q, dq].map(|values| largest(values.as_ref().iter().copied()).0);
         central_difference(q.as_ref().len(), position, slope, |step| mechanism.coordinate_rates(&moved(q, dq, step), v))
     })
 }
@@ -338,7 +339,7 @@ fn dissipated_power_tangent<S: Real, M: ConfigurationSpace<S>>(
     (q, v): (&M::Coordinates, &M::Velocities),
     (dq, dv): (&M::Coordinates, &M::Velocities),
 ) -> S {
-    let [state, slope] = [(q, v), (dq, dv)].map(|(q, v)| largest(q.as_ref()).maximum(largest(v.as_ref())));
+    let [state, slope] = [(q, v), (dq, dv)].map(|(q, v)| largest(q.as_ref().iter().chain(v.as_ref()).copied()).0);
     let power = |step: S| [mechanism.dissipated_power(&moved(q, dq, step), &moved(v, dv, step))];
     let [slope] = central_difference(1, state, slope, power);
     slope
@@ -359,9 +360,4 @@ fn central_difference<S: Real, V: Vector<S>>(len: usize, size: S, slope: S, mut 
 /// `from` + `step` · `direction`.
 fn moved<S: Real, V: Vector<S>>(from: &V, direction: &V, step: S) -> V {
     V::from_fn(from.as_ref().len(), |i| entry(from, i) + step * entry(direction, i))
-}
-
-/// The largest magnitude.
-fn largest<S: Real>(values: &[S]) -> S {
-    values.iter().fold(S::zero(), |largest, value| largest.maximum(value.abs()))
 }

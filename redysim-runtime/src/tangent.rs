@@ -53,13 +53,17 @@ pub(crate) fn project<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(mechanism
     if mechanism.nq() == mechanism.nv() {
         return;
     }
+    let mut projected = None;
     for velocity in 0..mechanism.nv() {
         let VelocityCoordinates::Quaternion(first) = mechanism.coordinates_of_velocity(velocity) else { continue };
+        // Three velocities share a quaternion.
+        if projected.replace(first) == Some(first) {
+            continue;
+        }
         let (along, square) = (first..first + 4).fold((S::zero(), S::zero()), |(along, square), i| {
             let q = entry(state, i);
             (along + q * entry(direction, i), square + q * q)
         });
-        // The three velocities of a quaternion project it three times, which changes nothing after the first one.
         for (part, i) in direction.as_mut().iter_mut().skip(first).take(4).zip(first..) {
             *part -= entry(state, i) * along / square;
         }

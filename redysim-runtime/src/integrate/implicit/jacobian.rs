@@ -2,6 +2,7 @@
 
 use crate::integrate::integration::{Integration, zeros};
 use crate::integrate::{IntegrationError, Ode};
+use crate::linear_algebra::largest;
 use crate::vector::entry;
 use crate::{Real, Vector};
 
@@ -50,10 +51,12 @@ fn difference<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
     direction: &Y,
     slope: &mut Y,
 ) -> Result<(), IntegrationError<S>> {
-    let Some((largest, value)) = largest(direction) else {
+    let (size, largest) = largest(direction.as_ref().iter().copied());
+    if size == S::zero() {
         slope.as_mut().fill(S::zero());
         return Ok(());
-    };
+    }
+    let value = entry(direction, largest);
     let Integration { progress, tolerances, .. } = &mut *integration;
     progress.y_new.clone_from(&progress.y);
     let old = entry(&progress.y, largest);
@@ -69,12 +72,6 @@ fn difference<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
         *element = (*element - rate) / (new - old) * value;
     }
     Ok(())
-}
-
-/// The component with the largest magnitude and its value; `None` of zeros.
-fn largest<S: Real, Y: Vector<S>>(direction: &Y) -> Option<(usize, S)> {
-    let components = direction.as_ref().iter().copied().enumerate().filter(|(_, part)| *part != S::zero());
-    components.reduce(|most, other| if other.1.abs() > most.1.abs() { other } else { most })
 }
 
 fn set<S, Y: AsMut<[S]>>(vector: &mut Y, index: usize, value: S) {
