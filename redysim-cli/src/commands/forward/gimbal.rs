@@ -1,6 +1,8 @@
 //! Joints in Euler angles that come near gimbal lock, where the first and the third axis are parallel and the angles change
 //! arbitrarily fast.
 
+use redysim_model::joint::EulerSequence;
+
 use crate::layout::{Joint, Layout};
 use crate::number::size;
 
@@ -10,31 +12,32 @@ const NEAR: f64 = 0.05;
 
 /// How near the joints of a run have come to gimbal lock.
 pub struct Gimbals<'a> {
-    /// The velocities of the joints whose motion is prescribed. Nothing fails where one of these is at its gimbal lock.
-    prescribed: &'a [usize],
-    nearest: Option<Approach>,
+    joints: Vec<(&'a Joint, EulerSequence)>,
+    nearest: Option<Approach<'a>>,
 }
 
 /// The nearest that a joint has come to gimbal lock.
-struct Approach {
-    joint: String,
+struct Approach<'a> {
+    joint: &'a str,
     t: f64,
     sine: f64,
 }
 
 impl<'a> Gimbals<'a> {
-    /// Of a run in which the motion along the velocities `prescribed` is given.
-    pub fn new(prescribed: &'a [usize]) -> Self {
-        Gimbals { prescribed, nearest: None }
+    /// Of a run in which the motion along the velocities `prescribed` is given: a joint that follows it does not fail at gimbal
+    /// lock.
+    pub fn new(layout: &'a Layout, prescribed: &[usize]) -> Self {
+        let in_angles = layout.joints.iter().filter_map(|joint| Some((joint, joint.euler_sequence()?)));
+        let is_free = |joint: &Joint| joint.v.clone().any(|velocity| !prescribed.contains(&velocity));
+        Gimbals { joints: in_angles.filter(|(joint, _)| is_free(joint)).collect(), nearest: None }
     }
 
     /// Looks at the position `q` at `t`.
-    pub fn see(&mut self, layout: &Layout, t: f64, q: &[f64]) {
-        for joint in &layout.joints {
-            let Some(sine) = sine(joint, q) else { continue };
-            let is_prescribed = joint.v.clone().all(|velocity| self.prescribed.contains(&velocity));
-            if !is_prescribed && sine < self.nearest.as_ref().map_or(NEAR, |nearest| nearest.sine) {
-                self.nearest = Some(Approach { joint: joint.name.clone(), t, sine });
+    pub fn see(&mut self, t: f64, q: &[f64]) {
+        for &(joint, sequence) in &self.joints {
+            let sine = sine(sequence, q[joint.q.end - 2]);
+            if sine < self.nearest.as_ref().map_or(NEAR, |nearest| nearest.sine) {
+                self.nearest = Some(Approach { joint: &joint.name, t, sine });
             }
         }
     }
@@ -52,11 +55,10 @@ impl<'a> Gimbals<'a> {
     }
 }
 
-/// The sine of the angle between the first and the third axis of a joint in Euler angles.
-fn sine(joint: &Joint, q: &[f64]) -> Option<f64> {
-    let [first, _, third] = joint.euler_sequence()?.axes();
-    let theta = q.get(joint.q.end - 2)?;
-    Some(if first == third { theta.sin() } else { theta.cos() }.abs())
+/// The sine of the angle between the first and the third axis at the second angle `theta`.
+fn sine(sequence: EulerSequence, theta: f64) -> f64 {
+    let [first, _, third] = sequence.axes();
+    if first == third { theta.sin() } else { theta.cos() }.abs()
 }
 
 #[cfg(test)]
@@ -76,12 +78,12 @@ mod tests {
     }
 
     fn advice(layout: &Layout, second_angles: &[f64]) -> Option<String> {
-        let mut gimbals = Gimbals::new(&[]);
+        let mut gimbals = Gimbals::new(layout, &[]);
         for (t, &theta) in second_angles.iter().enumerate() {
             let mut q: Vec<f64> = layout.coordinates.iter().map(|_| 0.4).collect();
             let place = q.len() - 2;
             q[place] = theta;
-            gimbals.see(layout, t as f64, &q);
+            gimbals.see(t as f64, &q);
         }
         gimbals.advice()
     }
@@ -115,8 +117,8 @@ mod tests {
         let mut q: Vec<f64> = layout.coordinates.iter().map(|_| 0.4).collect();
         q[4] = FRAC_PI_2;
         let see = |prescribed: &[usize]| {
-            let mut gimbals = Gimbals::new(prescribed);
-            gimbals.see(&layout, 0.0, &q);
+            let mut gimbals = Gimbals::new(&layout, prescribed);
+            gimbals.see(0.0, &q);
             gimbals.advice()
         };
         assert!(see(&[0, 1, 2, 3, 4, 5]).is_none());

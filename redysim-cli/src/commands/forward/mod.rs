@@ -172,7 +172,10 @@ fn warn_of_drift(forward: &Forward, record: &Record<'_>, Diagnostics { growth, g
     let Balance { drift, .. } = record.balance();
     if let Some(part) = record.balance().wrong_part() {
         let smaller = smaller_steps(&forward.integrator);
-        let help = gimbals.advice().map_or(smaller.clone(), |advice| format!("{advice}; or {smaller}"));
+        let help = match gimbals.advice() {
+            Some(advice) => format!("{advice}; or {smaller}"),
+            None => smaller,
+        };
         let warning = format!(
             "the motion is wrong: {} J have come from nowhere, {:.0} % of the energy that was exchanged",
             size(*drift),

@@ -46,6 +46,7 @@ impl<'a, 'r> RunObserver<'a, 'r> {
         start: &Vec<f64>,
     ) -> Result<Self, Failure> {
         let system = System::new(scenario, forward, ground);
+        let prescribed = forward.prescribed.as_ref().map_or(&[][..], |prescribed| &prescribed.velocities);
         let mut observer = RunObserver {
             scenario,
             forward,
@@ -55,7 +56,7 @@ impl<'a, 'r> RunObserver<'a, 'r> {
             position_residual: 0.0,
             distances: Distances::new(),
             growth: None,
-            gimbals: Gimbals::new(forward.prescribed.as_ref().map_or(&[], |prescribed| &prescribed.velocities)),
+            gimbals: Gimbals::new(&scenario.layout, prescribed),
             failed: None,
         };
         observer.write(forward.span.start, start)?;
@@ -70,7 +71,7 @@ impl<'a, 'r> RunObserver<'a, 'r> {
     fn see(&mut self, t: f64, state: &Vec<f64>) {
         let SimulationState { q, v, actuator_energy } = self.system.split(t, state);
         self.record.see(&q, &v, actuator_energy);
-        self.gimbals.see(&self.scenario.layout, t, &q);
+        self.gimbals.see(t, &q);
         self.position_residual = self.position_residual.max(self.scenario.position_residual(&q));
         if self.growth.is_none() {
             let from_nowhere = self.record.balance().wrong_part().is_some();
