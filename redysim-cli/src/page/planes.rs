@@ -52,28 +52,33 @@ pub fn planes_and_contacts(scenario: &Scenario) -> Result<(Vec<Plane>, Vec<Plane
         planes.push(Plane::of(ground)?);
     }
     let mut contacts = Vec::new();
-    for (frames, own) in scenario.contact.iter().flatten().map(parts) {
-        let plane = Plane::of(own.unwrap_or(ground))?;
+    for contact in scenario.contact.iter().flatten() {
+        let plane = Plane::of(own_ground(contact).unwrap_or(ground))?;
         let number = planes.iter().position(|other| *other == plane).unwrap_or(planes.len());
         if number == planes.len() {
             planes.push(plane);
         }
-        contacts.extend(frames.into_iter().map(|(name, frame)| PlaneContact { name, frame, plane: number }));
+        contacts.extend(named(contact).into_iter().map(|(name, frame)| PlaneContact { name, frame, plane: number }));
     }
     Ok((planes, contacts))
 }
 
 /// Whether a contact meets the ground of the scenario.
 pub fn meets_ground(scenario: &Scenario) -> bool {
-    scenario.contact.iter().flatten().any(|contact| parts(contact).1.is_none())
+    scenario.contact.iter().flatten().any(|contact| own_ground(contact).is_none())
 }
 
-/// The contacts of a table `contact`, by name and frame, and their own ground.
-fn parts(contact: &Contact) -> (Vec<(&str, &str)>, Option<Ground>) {
-    let (Contact::ReDySim { name, frame, ground, .. } | Contact::HuntCrossley { name, frame, ground, .. }) = contact;
-    let frames = match frame {
-        FrameNames::One(frame) => vec![(name.as_deref().unwrap_or(frame), frame.as_str())],
+/// The plane of the contacts of a table `contact`, if it is not the ground of the scenario.
+fn own_ground(contact: &Contact) -> Option<Ground> {
+    let (Contact::ReDySim { ground, .. } | Contact::HuntCrossley { ground, .. }) = contact;
+    *ground
+}
+
+/// Names and frames of the contacts of a table `contact`.
+fn named(contact: &Contact) -> Vec<(&str, &str)> {
+    let (Contact::ReDySim { name, frame, .. } | Contact::HuntCrossley { name, frame, .. }) = contact;
+    match frame {
+        FrameNames::One(frame) => vec![(name.as_deref().unwrap_or(frame), frame)],
         FrameNames::Several(frames) => frames.iter().map(|frame| (frame.as_str(), frame.as_str())).collect(),
-    };
-    (frames, *ground)
+    }
 }
