@@ -206,14 +206,15 @@ fn the_page_draws_forces_of_the_ground_at_the_feet_and_footprints_where_they_tou
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn the_page_draws_footprints_on_a_wall_where_contacts_meet_one() {
-    let rest = "initial = { q = { parcel = { xyz = [0, 0, 0.4] } }, v = { parcel = [3, 0, 1, 0, 0, 0] } }\n\
-                forward = { end = 1.5, step = 0.01 }\n\
-                [[contact]]\nlaw = 'hunt-crossley'\nframe = ['bottom_right_rear', 'bottom_left_rear']\n\
-                stiffness = 2e4\ndamping = 0.8\nfriction = 0.5\nslip_velocity = 0.01\n\
-                [[contact]]\nlaw = 'hunt-crossley'\nframe = ['top_right_front', 'top_left_front']\n\
-                ground = { point = [1, 0, 0], normal = [-2, 0, 0] }\n\
-                stiffness = 2e4\ndamping = 0.8\nfriction = 0.5\nslip_velocity = 0.01\n";
-    let run = results(&folder("contacts_wall"), "forward", "parcel.toml", rest);
+    let law = "law = 'hunt-crossley'\nstiffness = 2e4\ndamping = 0.8\nfriction = 0.5\nslip_velocity = 0.01\n";
+    let rest = format!(
+        "initial = {{ q = {{ parcel = {{ xyz = [0, 0, 0.4] }} }}, v = {{ parcel = [3, 0, 1, 0, 0, 0] }} }}\n\
+         forward = {{ end = 1.5, step = 0.01 }}\n\
+         [[contact]]\n{law}frame = ['bottom_right_rear', 'bottom_left_rear']\n\
+         [[contact]]\n{law}frame = ['top_right_front', 'top_left_front']\n\
+         ground = {{ point = [1, 0, 0], normal = [-2, 0, 0] }}\n"
+    );
+    let run = results(&folder("contacts_wall"), "forward", "parcel.toml", &rest);
     write_points(&run, "parcel");
     succeed(&run, &["animate", ".", "--force"]);
     node("contacts.mjs", &run, ["z", "z", "-x=1", "-x=1"]);
