@@ -90,9 +90,10 @@ impl<S: Real, Y: Vector<S>> Linearised<S, Y> {
 /// Estimates the largest stable step of `method` for an equation, in the state `y` at `t`, before it runs.
 ///
 /// All eigenvalues of the Jacobian along the [tangent space](Ode::project_onto_tangent) count, also those of undamped
-/// oscillations: of two that differ in size the smaller one may limit the step. What grows by itself is no fault of the method and limits nothing; where it also swings, it
-/// is taken as if it only swung. The answer holds near `y`: where inertia or gains change along the motion, ask in
-/// several states. It costs one [tangent](Ode::tangent) or evaluation for each component, and about 25 n³ operations.
+/// oscillations: of two that differ in size the smaller one may limit the step. A mode that grows does not limit the step,
+/// since the equation and not the method makes it grow; if it also oscillates, it counts as an undamped oscillation. The
+/// result holds near `y`: where inertia or gains change along the motion, evaluate several states. It costs one
+/// [tangent](Ode::tangent) or evaluation for each component, and about 25 n³ operations.
 ///
 /// # Errors
 /// If the state, its derivative or the Jacobian is infinite or not a number, if the method needs coordinates and the
