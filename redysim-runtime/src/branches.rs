@@ -1,10 +1,12 @@
 //! Branches of a mechanism that are alike, computed one after the other or side by side in the lanes of a vector.
 
 use crate::scalar::Scalar;
+use core::marker::PhantomData;
+use core::ops::Deref;
 
 /// What generated code computes for each of `N` branches that are alike: `K` results from `M` numbers.
 ///
-/// [`Scalar::side_by_side`] runs it: with the scalar itself for one branch after the other, or with lanes, each of which
+/// [`SideBySide`] runs it: with the scalar itself for one branch after the other, or with lanes, each of which
 /// has the numbers of a branch.
 #[doc(hidden)]
 pub trait Branches<S, const M: usize, const N: usize, const K: usize> {
@@ -13,26 +15,71 @@ pub trait Branches<S, const M: usize, const N: usize, const K: usize> {
     fn compute<P: Scalar>(read: &[S; M], each: impl Fn([S; N]) -> P, write: impl FnMut(usize, P));
 }
 
-/// The most branches that are computed by one call of [`Scalar::side_by_side`].
+/// The most branches that are computed by one [`SideBySide`].
 pub(crate) const MOST: usize = 8;
 
-/// Computes one branch after the other.
-#[inline(always)]
-pub(crate) fn in_turn<S: Scalar, B: Branches<S, M, N, K>, const M: usize, const N: usize, const K: usize>(
-    read: &[S; M],
-) -> [[S; K]; N] {
-    const { assert!(N <= MOST) };
-    let mut results = [[S::zero(); K]; N];
-    // Written out, so that the numbers of a branch need not be looked up while the program runs.
-    macro_rules! branches {
-        ($($branch:literal)*) => {$(
-            if N > $branch {
-                B::compute(read, #[inline(always)] |x| x[$branch], #[inline(always)] |column, value| results[$branch][column] = value);
-            }
-        )*};
+/// The results of the branches `B`, a row for each, computed as late as the scalar allows: when [`compute`](Self::compute)
+/// is called for a branch, or all with the first one.
+#[doc(hidden)]
+pub struct SideBySide<S, B, const M: usize, const N: usize, const K: usize> {
+    read: [S; M],
+    results: [[S; K]; N],
+    branches: PhantomData<B>,
+}
+
+impl<S: Scalar, B: Branches<S, M, N, K>, const M: usize, const N: usize, const K: usize> SideBySide<S, B, M, N, K> {
+    /// No results yet, of branches that read these numbers.
+    #[inline(always)]
+    pub fn new(read: [S; M]) -> Self {
+        const { assert!(N <= MOST) };
+        SideBySide { read, results: [[S::zero(); K]; N], branches: PhantomData }
     }
-    branches!(0 1 2 3 4 5 6 7);
-    results
+
+    /// Computes the results of this branch. Branches are computed in order.
+    #[inline(always)]
+    pub fn compute(&mut self, branch: usize) {
+        S::compute_branch::<B, M, N, K>(branch, &self.read, &mut self.results);
+    }
+
+    /// The results of all branches.
+    #[inline(always)]
+    pub fn all(mut self) -> [[S; K]; N] {
+        // Written out, so that the numbers of a branch need not be looked up while the program runs.
+        macro_rules! branches {
+            ($($branch:literal)*) => {$(
+                if N > $branch {
+                    self.compute($branch);
+                }
+            )*};
+        }
+        branches!(0 1 2 3 4 5 6 7);
+        self.results
+    }
+}
+
+impl<S, B, const M: usize, const N: usize, const K: usize> Deref for SideBySide<S, B, M, N, K> {
+    type Target = [[S; K]; N];
+
+    #[inline(always)]
+    fn deref(&self) -> &[[S; K]; N] {
+        &self.results
+    }
+}
+
+/// Computes one branch.
+#[inline(always)]
+pub(crate) fn one<S: Scalar, B: Branches<S, M, N, K>, const M: usize, const N: usize, const K: usize>(
+    branch: usize,
+    read: &[S; M],
+    results: &mut [[S; K]; N],
+) {
+    B::compute(
+        read,
+        #[inline(always)]
+        |x| x[branch],
+        #[inline(always)]
+        |column, value| results[branch][column] = value,
+    );
 }
 
 /// Computes branches from number `$first` on in the lanes of a vector.

@@ -1,7 +1,7 @@
 //! `f64` and `f32` as scalars.
 
 #[cfg(feature = "lanes")]
-use crate::branches::{self, Branches, in_lanes};
+use crate::branches::{Branches, in_lanes};
 #[cfg(feature = "lanes")]
 use crate::registers::{self, Register};
 use crate::scalar::{FUSED, Real, Scalar};
@@ -12,6 +12,8 @@ use wide::{f32x4, f64x2};
 macro_rules! real {
     ($float:ident, $vector:ident, $pair:ident: $two:literal, $four:ident: $width:literal, $sin_cos:path, $sin_cos_all:path, $sqrt:path, $fabs:path, $pow:path) => {
         impl Scalar for $float {
+            const WRITES_BY_ROWS: bool = true;
+
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
                 value as $float
@@ -57,11 +59,15 @@ macro_rules! real {
             }
             #[cfg(feature = "lanes")]
             #[inline(always)]
-            fn side_by_side<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
+            fn compute_branch<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
+                branch: usize,
                 read: &[Self; M],
-            ) -> [[Self; K]; N] {
-                const { assert!(N >= 2 && N <= branches::MOST) };
-                let mut results = [[0.0; K]; N];
+                results: &mut [[Self; K]; N],
+            ) {
+                const { assert!(N >= 2) };
+                if branch > 0 {
+                    return;
+                }
                 if N == 2 {
                     in_lanes!($pair: $two from 0, B, N, read, results);
                 } else {
@@ -72,7 +78,6 @@ macro_rules! real {
                 } else if N > 6 {
                     in_lanes!($four: $width from 4, B, N, read, results);
                 }
-                results
             }
             #[cfg(feature = "lanes")]
             #[inline(always)]

@@ -102,7 +102,7 @@ mod vector;
 mod wrapper;
 
 #[doc(hidden)]
-pub use branches::Branches;
+pub use branches::{Branches, SideBySide};
 pub use closed_loop::{
     Assembly, ClosedLoop, ConstrainedHybridMotion, ConstrainedMotion, IndependentMotion, LoopError, NamedLoopError,
     Projection,
@@ -135,7 +135,7 @@ pub use integrate::root::*;
 pub use joint_trig::JointTrig;
 pub use linear_algebra::RowSet;
 #[doc(hidden)]
-pub use matrix::{Elements, Unwritten, Written, write_matrix};
+pub use matrix::{Elements, Rows, Unwritten, WritingOrder, Written, write_matrix};
 pub use mechanism::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces,
     HybridDynamics, HybridMotion, InverseDynamics, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter,

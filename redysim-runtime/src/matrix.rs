@@ -4,20 +4,26 @@ use crate::scalar::Scalar;
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 
-/// Computes a matrix whose elements `write` gives in the order of its rows.
+/// Computes a matrix whose elements `write` gives in an [order of writing](WritingOrder).
 ///
 /// The compiler composes a large array literal elsewhere and copies it, and a matrix that begins with zeros goes through
-/// the cache twice. Here each element is written once, into the memory of the result.
+/// the cache twice. Here each element is written once, into the memory of the result, as soon as it is known.
 ///
 /// ```
-/// let matrix: [[f64; 3]; 2] = redysim_runtime::write_matrix(|matrix| {
-///     let mut elements = matrix.elements();
-///     elements.push(1.0);
-///     elements.zeros(2);
-///     elements.push(4.0);
+/// use redysim_runtime::{WritingOrder, write_matrix};
+///
+/// struct ColumnByColumn;
+/// impl WritingOrder<5> for ColumnByColumn {
+///     const RUNS: [[usize; 2]; 5] = [[0, 1], [3, 1], [1, 1], [4, 1], [2, 1]];
+/// }
+/// let matrix: [[f64; 3]; 2] = write_matrix(|matrix| {
+///     let mut elements = matrix.elements::<ColumnByColumn, 5>();
+///     elements.write(1.0);
+///     elements.write(2.0);
+///     elements.write(3.0);
 ///     elements.finish()
 /// });
-/// assert_eq!(matrix, [[1.0, 0.0, 0.0], [4.0, 0.0, 0.0]]);
+/// assert_eq!(matrix, [[1.0, 3.0, 0.0], [2.0, 0.0, 0.0]]);
 /// ```
 #[doc(hidden)]
 #[inline(always)]
@@ -29,8 +35,8 @@ pub fn write_matrix<S: Scalar, const ROWS: usize, const COLUMNS: usize>(
     fill(&mut matrix, write);
     // SAFETY: `MaybeUninit<S>` has the layout of `S`, hence the two types of matrices have the same layout. All elements are
     // initialised: `write` returned a `Written<'m>` for every lifetime `'m`, which is invariant, so that it is the one that
-    // `Elements::finish` made of this matrix. `Elements` begins with all elements, writes every one that it takes away,
-    // and `finish` takes those that are left.
+    // `Elements::finish` made of this matrix. `Elements` exists only for an order whose runs have every element once, writes
+    // all elements of every run that it goes past, and `finish` goes past the last one.
     unsafe { (&raw const matrix).cast::<[[S; COLUMNS]; ROWS]>().read() }
 }
 
@@ -55,22 +61,105 @@ pub struct Unwritten<'m, S, const ROWS: usize, const COLUMNS: usize> {
     matrix: Invariant<'m>,
 }
 
+/// An order in which the elements of a matrix are written: runs of elements that are the same number.
+///
+/// Each run is the place of its first element, counted through the rows, and the number of its elements. The runs have every
+/// element of the matrix once, or the program does not compile.
+#[doc(hidden)]
+pub trait WritingOrder<const N: usize> {
+    /// The runs, in the order in which they are written.
+    const RUNS: [[usize; 2]; N];
+}
+
+/// Whether `runs` have every element of a matrix once.
+const fn have_every_element_once<const ROWS: usize, const COLUMNS: usize>(runs: &[[usize; 2]]) -> bool {
+    let mut found = [[false; COLUMNS]; ROWS];
+    let (mut run, mut elements) = (0, 0);
+    while run < runs.len() {
+        let [first, length] = runs[run];
+        let mut place = first;
+        while place < first + length {
+            if place >= ROWS * COLUMNS || found[place / COLUMNS][place % COLUMNS] {
+                return false;
+            }
+            found[place / COLUMNS][place % COLUMNS] = true;
+            (place, elements) = (place + 1, elements + 1);
+        }
+        run += 1;
+    }
+    elements == ROWS * COLUMNS
+}
+
 impl<'m, S: Scalar, const ROWS: usize, const COLUMNS: usize> Unwritten<'m, S, ROWS, COLUMNS> {
-    /// Begins with the first element of the first row.
+    /// Begins with the first run of the order `O`.
     #[inline(always)]
-    pub fn elements(self) -> Elements<'m, S> {
-        Elements { rest: self.elements.as_flattened_mut(), matrix: self.matrix }
+    pub fn elements<O: WritingOrder<N>, const N: usize>(self) -> Elements<'m, S, O, N> {
+        const { assert!(have_every_element_once::<ROWS, COLUMNS>(&O::RUNS)) };
+        Elements { elements: self.elements.as_flattened_mut(), written: 0, order: PhantomData, matrix: self.matrix }
     }
 }
 
-/// A matrix of which the first elements are written.
+/// A matrix whose elements are written as they become known: runs of the order `O`.
 #[doc(hidden)]
-pub struct Elements<'m, S> {
-    rest: &'m mut [MaybeUninit<S>],
+pub struct Elements<'m, S, O, const N: usize> {
+    elements: &'m mut [MaybeUninit<S>],
+    /// The number of runs that are written.
+    written: usize,
+    order: PhantomData<O>,
     matrix: Invariant<'m>,
 }
 
-impl<'m, S: Scalar> Elements<'m, S> {
+impl<'m, S: Scalar, O: WritingOrder<N>, const N: usize> Elements<'m, S, O, N> {
+    /// Writes `element` into all places of the next run. Has no effect if every run is already written, and for scalars that
+    /// write [row by row](Scalar::WRITES_BY_ROWS).
+    ///
+    /// The compiler knows the places, since the number of runs that are written is one that it knows.
+    #[inline(always)]
+    pub fn write(&mut self, element: S) {
+        if !S::WRITES_BY_ROWS {
+            self.write_run(element);
+        }
+    }
+
+    /// Writes zeros into the next run.
+    #[inline(always)]
+    pub fn zeros(&mut self) {
+        self.write(S::opaque_zero());
+    }
+
+    /// Writes what is left: all elements as `by_rows` gives them for scalars that write row by row, then zeros.
+    #[inline(always)]
+    pub fn finish(mut self, by_rows: impl FnOnce(&mut Rows<'_, S>)) -> Written<'m> {
+        if S::WRITES_BY_ROWS {
+            let mut rows = Rows { rest: self.elements };
+            by_rows(&mut rows);
+            rows.zeros(rows.rest.len());
+        } else {
+            for _ in self.written..N {
+                self.write_run(S::opaque_zero());
+            }
+        }
+        Written { _matrix: self.matrix }
+    }
+
+    #[inline(always)]
+    fn write_run(&mut self, element: S) {
+        let Some(&[first, length]) = O::RUNS.get(self.written) else { return };
+        self.written += 1;
+        let Some(places) = self.elements.get_mut(first..first + length) else { return };
+        for place in places {
+            place.write(element);
+        }
+    }
+}
+
+/// A matrix of which the first elements are written, row by row.
+#[doc(hidden)]
+pub struct Rows<'m, S> {
+    rest: &'m mut [MaybeUninit<S>],
+}
+
+impl<S: Scalar> Rows<'_, S> {
     /// Writes the next element. Has no effect if every element is already written.
     #[inline(always)]
     pub fn push(&mut self, element: S) {
@@ -81,13 +170,6 @@ impl<'m, S: Scalar> Elements<'m, S> {
     #[inline(always)]
     pub fn zeros(&mut self, count: usize) {
         self.write_all(count, S::opaque_zero());
-    }
-
-    /// Writes zeros into the elements that are left.
-    #[inline(always)]
-    pub fn finish(mut self) -> Written<'m> {
-        self.zeros(self.rest.len());
-        Written { _matrix: self.matrix }
     }
 
     /// Writes `element` into the next `count` elements. The loop does not change what is left, so that the compiler knows
@@ -113,14 +195,50 @@ pub struct Written<'m> {
 mod tests {
     use super::*;
 
+    /// Row by row, each element by itself.
+    struct RowByRow;
+
+    impl<const N: usize> WritingOrder<N> for RowByRow {
+        const RUNS: [[usize; 2]; N] = {
+            let (mut runs, mut place) = ([[0, 1]; N], 0);
+            while place < N {
+                runs[place][0] = place;
+                place += 1;
+            }
+            runs
+        };
+    }
+
+    /// In a matrix of three rows of five: the last element, eleven zeros in three runs, and three elements.
+    struct WithRuns;
+
+    impl WritingOrder<7> for WithRuns {
+        const RUNS: [[usize; 2]; 7] = [[14, 1], [3, 6], [0, 1], [11, 3], [2, 1], [9, 2], [1, 1]];
+    }
+
     #[test]
-    fn elements_are_written_in_the_order_of_the_rows() {
-        let matrix: [[f64; 3]; 2] = write_matrix(|matrix| {
-            let mut elements = matrix.elements();
-            (1..=6).for_each(|number| elements.push(f64::from(number)));
+    fn elements_are_written_at_their_places_in_the_order() {
+        let by_rows: [[f64; 3]; 2] = write_matrix(|matrix| {
+            let mut elements = matrix.elements::<RowByRow, 6>();
+            (1..=6).for_each(|number| elements.write(f64::from(number)));
             elements.finish()
         });
-        assert_eq!(matrix, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        assert_eq!(by_rows, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        let with_runs: [[f64; 5]; 3] = write_matrix(|matrix| {
+            let mut elements = matrix.elements::<WithRuns, 7>();
+            (1..=7).for_each(|number| elements.write(f64::from(number)));
+            elements.finish()
+        });
+        assert_eq!(with_runs, [[3.0, 7.0, 5.0, 2.0, 2.0], [2.0, 2.0, 2.0, 2.0, 6.0], [6.0, 4.0, 4.0, 4.0, 1.0]]);
+    }
+
+    #[test]
+    fn runs_that_leave_out_repeat_or_exceed_elements_are_no_order() {
+        assert!(have_every_element_once::<2, 3>(&[[5, 1], [0, 2], [2, 3]]));
+        assert!(have_every_element_once::<3, 0>(&[]));
+        for wrong in [&[[0, 2], [3, 3]][..], &[[0, 3], [2, 4]], &[[0, 7]], &[[6, 1], [0, 5]], &[[0, 6], [0, 1]]] {
+            assert!(!have_every_element_once::<2, 3>(wrong), "{wrong:?}");
+        }
     }
 
     #[test]
@@ -130,15 +248,14 @@ mod tests {
         fn check<S: Scalar + PartialEq + core::fmt::Debug>() {
             let one = S::one();
             let matrix: [[S; 5]; 3] = write_matrix(|matrix| {
-                let mut elements = matrix.elements();
-                elements.zeros(4);
-                elements.push(one);
-                elements.zeros(6);
-                elements.push(one);
+                let mut elements = matrix.elements::<WithRuns, 7>();
+                elements.write(one);
+                elements.zeros();
+                elements.write(one);
                 elements.finish()
             });
             let mut expected = [[S::from_f64(0.0); 5]; 3];
-            (expected[0][4], expected[2][1]) = (one, one);
+            (expected[0][0], expected[2][4]) = (one, one);
             assert_eq!(matrix, expected);
         }
         check::<F64x2>();
@@ -153,15 +270,15 @@ mod tests {
     fn elements_that_are_left_are_zero_and_there_are_no_others() {
         let written = |count: usize| -> [[f64; 2]; 2] {
             write_matrix(|matrix| {
-                let mut elements = matrix.elements();
-                (0..count).for_each(|_| elements.push(1.0));
+                let mut elements = matrix.elements::<RowByRow, 4>();
+                (0..count).for_each(|_| elements.write(1.0));
                 elements.finish()
             })
         };
         assert_eq!(written(0), [[0.0; 2]; 2]);
         assert_eq!(written(3), [[1.0, 1.0], [1.0, 0.0]]);
         assert_eq!(written(5), [[1.0; 2]; 2]);
-        let none: [[f64; 0]; 3] = write_matrix(|matrix| matrix.elements().finish());
+        let none: [[f64; 0]; 3] = write_matrix(|matrix| matrix.elements::<RowByRow, 0>().finish());
         assert_eq!(none, [[]; 3]);
     }
 }

@@ -88,13 +88,21 @@ pub trait Scalar:
         Self::zero()
     }
 
-    /// The results of the [`Branches`] `B`, a row for each.
+    /// Whether large matrices are written row by row once all elements are known: neighbouring numbers become vectors. Others write
+    /// each element as soon as it is known.
+    #[doc(hidden)]
+    const WRITES_BY_ROWS: bool = false;
+
+    /// Computes the results of one of the [`Branches`] `B`. Numbers compute those of all branches with the first one, in the lanes
+    /// of a vector.
     #[doc(hidden)]
     #[inline(always)]
-    fn side_by_side<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
+    fn compute_branch<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
+        branch: usize,
         read: &[Self; M],
-    ) -> [[Self; K]; N] {
-        branches::in_turn::<Self, B, M, N, K>(read)
+        results: &mut [[Self; K]; N],
+    ) {
+        branches::one::<Self, B, M, N, K>(branch, read, results);
     }
 
     /// Zero.

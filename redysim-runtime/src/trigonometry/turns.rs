@@ -13,26 +13,36 @@ const LARGEST: f64 = 7.0;
 #[inline(always)]
 pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
     // A branch for every four angles, which nearly always are small: with one for all of them the comparisons of eight
-    // angles would be joined into vectors of 512 bits. Loops and not `fold`, which the compiler may leave as a function of
-    // its own: that is not compiled for the instructions of lanes chosen at run time.
-    for angles in angles.chunks_mut(4) {
-        let mut small = true;
-        for angle in &*angles {
-            small &= is_small(*angle);
-        }
-        if !small {
-            for angle in angles {
+    // angles would be joined into vectors of 512 bits. Four that are written out, since in a loop lanes go through memory.
+    let (fours, others) = angles.as_chunks_mut::<4>();
+    for four in fours {
+        let [a, b, c, d] = *four;
+        // In this order a margin that is NaN does not replace the others.
+        let least = margin(b).lesser(margin(a).lesser(A::zero()));
+        if !A::zero().all_at_most(margin(d).lesser(margin(c).lesser(least))) {
+            for angle in four {
                 (*angle, _) = angle.one_by_one(without_turns_of_one);
             }
+        }
+    }
+    for angle in others {
+        if !is_small(*angle) {
+            (*angle, _) = angle.one_by_one(without_turns_of_one);
         }
     }
     angles
 }
 
+/// What the square of the angle leaves of the largest one without turns to take away: negative in lanes with such turns.
+#[inline(always)]
+fn margin<A: Angle>(angle: A) -> A {
+    (-angle).mul_add(angle, A::from_f64(LARGEST * LARGEST))
+}
+
 /// Whether the angle in every lane has no whole turns to take away.
 #[inline(always)]
 fn is_small<A: Angle>(angle: A) -> bool {
-    (angle * angle).all_at_most(A::from_f64(LARGEST * LARGEST))
+    A::zero().all_at_most(margin(angle))
 }
 
 /// One angle, and nothing of interest.

@@ -1,5 +1,6 @@
 //! The body of a function as Rust: its program, printed as statements and expressions over `S: Scalar`.
 
+use super::writes::{Moment, Write, Writes};
 use crate::program::{Carried, Index, LiveOutArray, Loop, LoopRead, Program, SideBySide, Statement, Trig, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -47,13 +48,68 @@ pub fn body(
 ) -> TokenStream {
     let (printer, k) = (Printer { arguments, runtime }, local(FROM_F64));
     let statements = program.statements.iter().map(|statement| printer.statement(statement));
-    let outputs: Vec<TokenStream> =
-        program.outputs.iter().map(|output| printer.value(output, Binding::Lowest)).collect();
-    let result = result(&outputs);
+    let result = result(&printer.outputs(program));
     quote! {
         let #k = S::from_f64;
         #(#statements)*
         #result
+    }
+}
+
+/// The body of a function that writes the elements of its matrix when `writes` has them.
+pub fn writing_body(program: &Program, arguments: &[&str], runtime: &TokenStream, writes: &Writes) -> TokenStream {
+    let (printer, k, matrix) = (Printer { arguments, runtime }, local(FROM_F64), local(MATRIX));
+    let outputs = printer.outputs(program);
+    let at = |moment| {
+        let code = writes.at(moment).iter().map(|write| match *write {
+            Write::Output(number) => {
+                let value = &outputs[number];
+                quote!(#matrix.write(#value);)
+            }
+            Write::Zeros => quote!(#matrix.zeros();),
+        });
+        quote!(#(#code)*)
+    };
+    let first = at(Moment::default());
+    let by_rows = program.outputs.iter().zip(&outputs).collect::<Vec<_>>();
+    let by_rows = by_rows.chunk_by(|(a, _), (b, _)| a.is_zero() && b.is_zero()).map(|run| match *run {
+        [(output, value)] if !output.is_zero() => quote!(#matrix.push(#value);),
+        _ => {
+            let count = Literal::usize_unsuffixed(run.len());
+            quote!(#matrix.zeros(#count);)
+        }
+    });
+    let by_rows = quote!(#(#by_rows)*);
+    let statements = (1..).zip(&program.statements).map(|(statements, statement)| {
+        if let Statement::SideBySide(side_by_side) = statement {
+            let (name, branches) = (local(&side_by_side.name), printer.side_by_side(side_by_side));
+            let computed = (0..side_by_side.branches).map(|branch| {
+                let (number, written) = (Literal::usize_unsuffixed(branch), at(Moment { statements, branch }));
+                quote!(#name.compute(#number); #written)
+            });
+            quote!(let mut #name = #branches; #(#computed)*)
+        } else {
+            let (code, written) = (printer.statement(statement), at(Moment { statements, branch: 0 }));
+            quote!(#code #written)
+        }
+    });
+    let (count, runs) = (
+        Literal::usize_unsuffixed(writes.runs.len()),
+        writes.runs.iter().map(|run| {
+            let [first, length] = run.map(Literal::usize_unsuffixed);
+            quote!([#first, #length])
+        }),
+    );
+    quote! {
+        struct Order;
+        impl #runtime::WritingOrder<#count> for Order {
+            const RUNS: [[usize; 2]; #count] = [#(#runs),*];
+        }
+        let #k = S::from_f64;
+        let mut #matrix = #matrix.elements::<Order, #count>();
+        #first
+        #(#statements)*
+        #matrix.finish(#[inline(always)] |#matrix| { #by_rows })
     }
 }
 
@@ -75,6 +131,10 @@ enum Binding {
 }
 
 impl Printer<'_> {
+    fn outputs(&self, program: &Program) -> Vec<TokenStream> {
+        program.outputs.iter().map(|output| self.value(output, Binding::Lowest)).collect()
+    }
+
     fn statement(&self, statement: &Statement) -> TokenStream {
         match statement {
             Statement::Destructure { array, names } => {
@@ -96,12 +156,17 @@ impl Printer<'_> {
                 }
             }
             Statement::Loop(each) => self.sweep(each),
-            Statement::SideBySide(each) => self.side_by_side(each),
+            Statement::SideBySide(each) => {
+                let (name, branches) = (local(&each.name), self.side_by_side(each));
+                quote!(let #name = #branches.all();)
+            }
         }
     }
 
+    /// Branches, of which none is computed yet.
+    ///
     /// ```text
-    /// let legs = {
+    /// {
     ///     struct Branch;
     ///     impl<T: Scalar> Branches<T, 9, 4, 2> for Branch {
     ///         fn compute<S: Scalar>(read: &[T; 9], each: impl Fn([T; 4]) -> S, mut write: impl FnMut(usize, S)) {
@@ -112,10 +177,10 @@ impl Printer<'_> {
     ///             write(0, w_thigh_x);
     ///         }
     ///     }
-    ///     S::side_by_side::<Branch, 9, 4, 2>(&[v[6], v[9], …])
-    /// };
+    ///     SideBySide::<S, Branch, 9, 4, 2>::new([v[6], v[9], …])
+    /// }
     /// ```
-    fn side_by_side(&self, SideBySide { name, branches, inputs, body, results }: &SideBySide) -> TokenStream {
+    fn side_by_side(&self, SideBySide { branches, inputs, body, results, .. }: &SideBySide) -> TokenStream {
         let mut read: Vec<TokenStream> = Vec::new();
         let mut places: HashMap<String, usize> = HashMap::new();
         let inputs: Vec<TokenStream> = inputs
@@ -146,9 +211,9 @@ impl Printer<'_> {
             let (column, result) = (Literal::usize_unsuffixed(column), local(result));
             quote!(write(#column, #result);)
         });
-        let (name, k, runtime) = (local(name), local(FROM_F64), self.runtime);
+        let (k, runtime) = (local(FROM_F64), self.runtime);
         quote! {
-            let #name = {
+            {
                 struct Branch;
                 impl<T: #runtime::Scalar> #runtime::Branches<T, #reads, #branches, #columns> for Branch {
                     #[inline(always)]
@@ -163,8 +228,8 @@ impl Printer<'_> {
                         #(#results)*
                     }
                 }
-                S::side_by_side::<Branch, #reads, #branches, #columns>(&[#(#read),*])
-            };
+                #runtime::SideBySide::<S, Branch, #reads, #branches, #columns>::new([#(#read),*])
+            }
         }
     }
 

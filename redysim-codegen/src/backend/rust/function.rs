@@ -1,13 +1,14 @@
 //! One function of a mechanism: of coordinates, and of precomputed joint trigonometry.
 
-use super::body::{COS, MATRIX, SIN, body, local};
+use super::body::{COS, MATRIX, SIN, body, local, writing_body};
 use super::parametric::Form;
+use super::writes::Writes;
 use super::{length, results, trig};
 use crate::mechanism::{FunctionProgram, TrigProgram};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use redysim_model::{Function, PublicInterface};
-use redysim_runtime::function::{Argument, Dimension};
+use redysim_runtime::function::{Argument, Dimension, Shape};
 
 /// The name of the argument that has the coordinates with the sines and cosines.
 const TRIG: &str = "trig";
@@ -51,13 +52,12 @@ impl Writer<'_> {
         let signature = function.signature();
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
         let as_numbers = signature.arguments.iter().filter_map(|argument| as_numbers(*argument, self.interface));
-        let body = body(program, &arguments, self.runtime, |outputs| {
-            if results::is_written(signature.result, &program.outputs) {
-                results::written(&program.outputs, outputs)
-            } else {
+        let body = match Writes::of(signature.result, program) {
+            Some(writes) => writing_body(program, &arguments, self.runtime, &writes),
+            None => body(program, &arguments, self.runtime, |outputs| {
                 results::value(signature.result, self.interface, outputs, self.runtime)
-            }
-        });
+            }),
+        };
         quote!(#(#as_numbers)* #body)
     }
 
@@ -88,18 +88,12 @@ impl Writer<'_> {
         let others: Vec<Ident> = others(function).collect();
         let (computed, sin, cos) = trig::of_function(angles_read, &program.program);
         let caller = Form::of(interface, runtime).caller;
-        let is_written = results::is_written(function.signature().result, &program.program.outputs);
-        let written = is_written.then(|| local(MATRIX));
+        let written = Writes::of(function.signature().result, &program.program).map(|_| local(MATRIX));
         let head_inlined = head_inlined(function, interface, &angles, runtime, written.as_ref());
         let whole = |computed: &TokenStream, arguments: &TokenStream| match &written {
             None => with_target_features(&quote!(#computed #caller #inlined(#arguments))),
             Some(matrix) => {
-                let body = with_target_features(&quote! {
-                    #computed
-                    let mut #matrix = #matrix.elements();
-                    #caller #inlined(#arguments, &mut #matrix);
-                    #matrix.finish()
-                });
+                let body = with_target_features(&quote!(#computed #caller #inlined(#arguments, #matrix)));
                 quote!(#runtime::write_matrix(#[inline(always)] |#matrix| #body))
             }
         };
@@ -194,12 +188,18 @@ fn head_inlined(
     let [sin, cos] = [SIN, COS].map(local);
     let (q, others) =
         (parameters(function, interface, runtime).take(1), parameters(function, interface, runtime).skip(1));
-    let (matrix, output) = match written {
-        Some(matrix) => (Some(quote!(, #matrix: &mut #runtime::Elements<'_, S>)), quote!(())),
-        None => (None, results::output_type(function.signature().result, interface, runtime)),
+    let shape = function.signature().result;
+    let (lifetime, matrix, output) = match written {
+        Some(matrix) => {
+            let rows = if shape == Shape::LoopJacobian { Dimension::LoopRows } else { Dimension::Velocities };
+            let [rows, columns] = [rows, Dimension::Velocities].map(|dimension| length(interface, dimension));
+            let argument = quote!(, #matrix: #runtime::Unwritten<'m, S, #rows, #columns>);
+            (Some(quote!('m,)), Some(argument), quote!(#runtime::Written<'m>))
+        }
+        None => (None, None, results::output_type(shape, interface, runtime)),
     };
     let Form { function, receiver, .. } = Form::of(interface, runtime);
-    quote!(fn #name #function(
+    quote!(fn #name<#lifetime #function>(
         #receiver #(#q,)* #sin: &[S; #angles], #cos: &[S; #angles] #(, #others)* #matrix
     ) -> #output)
 }
@@ -209,7 +209,7 @@ pub fn joint_trig_head(interface: &PublicInterface, angles: &TokenStream, runtim
     let nq = length(interface, Dimension::Coordinates);
     let q = local("q");
     let Form { function, receiver, .. } = Form::of(interface, runtime);
-    quote!(fn joint_trig #function(#receiver #q: &[S; #nq]) -> #runtime::JointTrig<S, #nq, #angles>)
+    quote!(fn joint_trig<#function>(#receiver #q: &[S; #nq]) -> #runtime::JointTrig<S, #nq, #angles>)
 }
 
 /// Name, arguments and result of a function of the joint trigonometry of `angles` angles.
@@ -224,7 +224,7 @@ pub fn head_with_trig(
     let (trig, others) = (local(TRIG), parameters(function, interface, runtime).skip(1));
     let output = results::output_type(function.signature().result, interface, runtime);
     let Form { function, receiver, .. } = Form::of(interface, runtime);
-    quote!(fn #name #function(
+    quote!(fn #name<#function>(
         #receiver #trig: &#runtime::JointTrig<S, #nq, #angles> #(, #others)*
     ) -> #output)
 }
@@ -235,5 +235,5 @@ pub fn head(function: Function, interface: &PublicInterface, runtime: &TokenStre
     let parameters = parameters(function, interface, runtime);
     let output = results::output_type(function.signature().result, interface, runtime);
     let Form { function, receiver, .. } = Form::of(interface, runtime);
-    quote!(fn #name #function(#receiver #(#parameters),*) -> #output)
+    quote!(fn #name<#function>(#receiver #(#parameters),*) -> #output)
 }

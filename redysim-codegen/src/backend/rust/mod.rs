@@ -9,6 +9,7 @@ mod results;
 pub mod source;
 mod traits;
 mod trig;
+mod writes;
 
 use crate::mechanism::MechanismProgram;
 pub use body::RESERVED;

@@ -87,7 +87,7 @@ impl Form {
             }
         } else {
             Form {
-                function: quote!(<S: #runtime::Scalar>),
+                function: quote!(S: #runtime::Scalar),
                 receiver: quote!(),
                 caller: quote!(Self::),
                 reads: quote!(),

@@ -1,9 +1,7 @@
 //! What a generated function returns: its type, and its value from the outputs of a graph.
 
-use super::body::{MATRIX, local};
 use super::length;
-use crate::program::Value;
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 use redysim_model::PublicInterface;
 use redysim_runtime::function::{Dimension, Shape};
@@ -114,34 +112,6 @@ fn frame_state(vectors: &[TokenStream], runtime: &TokenStream) -> TokenStream {
     })
 }
 
-/// From this number of elements on, a matrix of which at least a third are zero is written element by element where the function
-/// returns it. LLVM composes an array literal of that size elsewhere and copies it, which in lanes takes more time than to
-/// compute it; of a matrix without zeros it takes less.
-const LARGE_MATRIX: usize = 256;
-
-/// Whether a function's result is [written](written) element by element.
-pub fn is_written(shape: Shape, outputs: &[Value]) -> bool {
-    let zeros = outputs.iter().filter(|output| output.is_zero()).count();
-    let is_matrix = matches!(shape, Shape::MassMatrix | Shape::CoriolisMatrix | Shape::LoopJacobian);
-    is_matrix && outputs.len() >= LARGE_MATRIX && 3 * zeros >= outputs.len()
-}
-
-/// Writes the `elements` of a matrix, which are the code of `outputs`, in the order of its rows.
-pub fn written(outputs: &[Value], elements: &[TokenStream]) -> TokenStream {
-    let matrix = local(MATRIX);
-    let of_outputs: Vec<_> = outputs.iter().zip(elements).collect();
-    let runs = of_outputs.chunk_by(|(a, _), (b, _)| a.is_zero() == b.is_zero()).map(|run| {
-        if run[0].0.is_zero() {
-            let count = Literal::usize_unsuffixed(run.len());
-            quote!(#matrix.zeros(#count);)
-        } else {
-            let elements = run.iter().map(|(_, element)| element);
-            quote!(#(#matrix.push(#elements);)*)
-        }
-    });
-    quote!(#(#runs)*)
-}
-
 fn rows(elements: &[TokenStream], length: usize) -> Vec<TokenStream> {
     elements.chunks(length).map(array).collect()
 }
@@ -149,33 +119,4 @@ fn rows(elements: &[TokenStream], length: usize) -> Vec<TokenStream> {
 /// An array of values.
 fn array(elements: &[TokenStream]) -> TokenStream {
     quote!([#(#elements),*])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The elements of a matrix of `size` rows, with ones where `is_set`.
-    fn elements(size: usize, is_set: impl Fn(usize, usize) -> bool) -> Vec<Value> {
-        let value = |index| if is_set(index / size, index % size) { 1.0 } else { 0.0 };
-        (0..size * size).map(|index| Value::Constant(value(index))).collect()
-    }
-
-    #[test]
-    fn a_large_matrix_with_zeros_is_written_and_no_other() {
-        let diagonal = |row, column| row == column;
-        assert!(is_written(Shape::MassMatrix, &elements(16, diagonal)));
-        assert!(!is_written(Shape::MassMatrix, &elements(15, diagonal)));
-        assert!(!is_written(Shape::MassMatrix, &elements(16, |row, _| row < 12)));
-        assert!(!is_written(Shape::Forces, &elements(16, diagonal)));
-    }
-
-    #[test]
-    fn elements_are_written_in_order_and_zeros_in_runs() {
-        let outputs = [1.0, 0.0, 0.0, 2.0, 3.0, 0.0].map(Value::Constant);
-        let elements = [quote!(one), quote!(none), quote!(none), quote!(two), quote!(three), quote!(none)];
-        let text = written(&outputs, &elements).to_string();
-        let expected = "matrix . push (one) ; matrix . zeros (2) ; matrix . push (two) ; matrix . push (three) ; matrix . zeros (1) ;";
-        assert_eq!(text, expected);
-    }
 }
