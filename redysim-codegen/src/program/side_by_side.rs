@@ -41,7 +41,7 @@ impl PackNames {
                 }
             };
             if !is_inline {
-                variables[index] = Some(names.make(graph.name(node), false));
+                variables[index] = Some(names.make(graph.name(node), packs.negative[index][0]));
                 sizes[index] = 0;
             }
         }

@@ -1,7 +1,7 @@
 //! The order in which packs and single operations are computed.
 
 use super::Siblings;
-use super::packs::{Operation, Pack, Source, packs};
+use super::packs::{Kind, Operation, Pack, Source, packs};
 use super::signs::signs;
 use crate::angles::is_given;
 use crate::expressions::Expressions;
@@ -96,6 +96,7 @@ impl SideBySide {
         let results = side_by_side.demand(expressions);
         side_by_side.schedule(graph)?;
         side_by_side.divide(results);
+        side_by_side.negate_what_is_read_negative(expressions);
         let (own, all) = (side_by_side.code_size(graph), live.iter().filter(|live| **live).count());
         (!side_by_side.parts.is_empty() && LEAST_SAVED * own <= (LEAST_SAVED - 1) * all).then_some(side_by_side)
     }
@@ -182,6 +183,29 @@ impl SideBySide {
             }
         }
         results
+    }
+
+    /// Packs that are mostly read with a minus sign, one by one, have the negatives of their values: the operations that
+    /// compute and read them take the sign.
+    fn negate_what_is_read_negative(&mut self, expressions: &Expressions) {
+        let graph = &expressions.graph;
+        // For each pack, reads with a minus sign less those without.
+        let mut minus: HashMap<(usize, usize), i32> = HashMap::new();
+        let single = (0..graph.len()).filter(|&node| self.uses[node] > 0 && is_operation(graph.node(node)));
+        let operands = single.flat_map(|node| graph.node(node).operands());
+        for edge in operands.chain(expressions.outputs.iter().copied()) {
+            if let Some(&(siblings, pack, branch)) = self.members.get(&edge.node()) {
+                let is_minus = edge.is_negative() != self.siblings[siblings].negative[pack][branch];
+                *minus.entry((siblings, pack)).or_default() += if is_minus { 1 } else { -1 };
+            }
+        }
+        for ((siblings, pack), minus) in minus {
+            let Packs { packs, negative, .. } = &mut self.siblings[siblings];
+            let has_sign = |operation: &Operation| operation.kind(graph) != Kind::Root;
+            if minus > 0 && matches!(&packs[pack], Pack::Operation(operation) if has_sign(operation)) {
+                negative[pack].iter_mut().for_each(|negative| *negative = !*negative);
+            }
+        }
     }
 
     /// Finds the levels; `None` where packs and single operations wait for each other.
