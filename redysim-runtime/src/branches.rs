@@ -10,50 +10,69 @@ use core::ops::Deref;
 /// has the numbers of a branch.
 #[doc(hidden)]
 pub trait Branches<S, const M: usize, const N: usize, const K: usize> {
-    /// Computes the results with the scalar `P`. `each` makes one `P` of a number for each branch, and `write` takes the
-    /// result with the given index.
-    fn compute<P: Scalar>(read: &[S; M], each: impl Fn([S; N]) -> P, write: impl FnMut(usize, P));
+    /// Computes the results with the scalar `P`. `each` makes one `P` of a number for each branch, `known` takes the result with
+    /// the given index once it is known, and `write` takes all at the end.
+    fn compute<P: Scalar>(
+        read: &[S; M],
+        each: impl Fn([S; N]) -> P,
+        known: impl FnMut(usize, P),
+        write: impl FnMut(usize, P),
+    );
 }
 
 /// The most branches that are computed by one [`SideBySide`].
 pub(crate) const MOST: usize = 8;
 
-/// The results of the branches `B`, a row for each, computed as late as the scalar allows: when [`compute`](Self::compute)
-/// is called for a branch, or all with the first one.
+/// The results of the branches `B`, a row for each.
 #[doc(hidden)]
 pub struct SideBySide<S, B, const M: usize, const N: usize, const K: usize> {
-    read: [S; M],
     results: [[S; K]; N],
     branches: PhantomData<B>,
 }
 
 impl<S: Scalar, B: Branches<S, M, N, K>, const M: usize, const N: usize, const K: usize> SideBySide<S, B, M, N, K> {
-    /// No results yet, of branches that read these numbers.
+    /// No results yet.
     #[inline(always)]
-    pub fn new(read: [S; M]) -> Self {
+    pub fn begun() -> Self {
         const { assert!(N <= MOST) };
-        SideBySide { read, results: [[S::zero(); K]; N], branches: PhantomData }
+        SideBySide { results: [[S::zero(); K]; N], branches: PhantomData }
     }
 
-    /// Computes the results of this branch. Branches are computed in order.
+    /// Computes the results of this branch, and calls `known` with every one of them once it is known. Scalars that compute all
+    /// [at once](Scalar::AT_ONCE) compute those of all branches with the first one, and do not call `known`.
     #[inline(always)]
-    pub fn compute(&mut self, branch: usize) {
-        S::compute_branch::<B, M, N, K>(branch, &self.read, &mut self.results);
+    pub fn compute(&mut self, branch: usize, read: &[S; M], known: impl FnMut(usize, S)) {
+        S::compute_branch::<B, M, N, K>(
+            branch,
+            read,
+            known,
+            #[inline(always)]
+            |branch, column, value| self.results[branch][column] = value,
+        );
     }
 
     /// The results of all branches.
     #[inline(always)]
-    pub fn all(mut self) -> [[S; K]; N] {
+    pub fn all(read: &[S; M]) -> [[S; K]; N] {
+        const { assert!(N <= MOST) };
+        let mut results = [[S::zero(); K]; N];
         // Written out, so that the numbers of a branch need not be looked up while the program runs.
         macro_rules! branches {
             ($($branch:literal)*) => {$(
                 if N > $branch {
-                    self.compute($branch);
+                    S::compute_branch::<B, M, N, K>(
+                        $branch,
+                        read,
+                        #[inline(always)]
+                        |_, _| {},
+                        #[inline(always)]
+                        |branch, column, value| results[branch][column] = value,
+                    );
                 }
             )*};
         }
         branches!(0 1 2 3 4 5 6 7);
-        self.results
+        results
     }
 }
 
@@ -66,26 +85,10 @@ impl<S, B, const M: usize, const N: usize, const K: usize> Deref for SideBySide<
     }
 }
 
-/// Computes one branch.
-#[inline(always)]
-pub(crate) fn one<S: Scalar, B: Branches<S, M, N, K>, const M: usize, const N: usize, const K: usize>(
-    branch: usize,
-    read: &[S; M],
-    results: &mut [[S; K]; N],
-) {
-    B::compute(
-        read,
-        #[inline(always)]
-        |x| x[branch],
-        #[inline(always)]
-        |column, value| results[branch][column] = value,
-    );
-}
-
 /// Computes branches from number `$first` on in the lanes of a vector.
 #[cfg(feature = "lanes")]
 macro_rules! in_lanes {
-    ($lanes:ident: $width:literal from $first:literal, $behaviour:ident, $branches:ident, $read:ident, $results:ident) => {
+    ($lanes:ident: $width:literal from $first:literal, $behaviour:ident, $branches:ident, $read:ident, $write:ident) => {
         $behaviour::compute(
             $read,
             #[inline(always)]
@@ -101,11 +104,13 @@ macro_rules! in_lanes {
                 $crate::lanes::$lanes::from(numbers)
             },
             #[inline(always)]
+            |_, _| {},
+            #[inline(always)]
             |column, value: $crate::lanes::$lanes| {
                 let numbers = value.to_array();
                 let mut lane = 0;
                 while lane < $width && $first + lane < $branches {
-                    $results[$first + lane][column] = numbers[lane];
+                    $write($first + lane, column, numbers[lane]);
                     lane += 1;
                 }
             },

@@ -83,6 +83,8 @@ impl<S: Scalar> SubAssign for Dual<S> {
 }
 
 impl<S: Scalar> Scalar for Dual<S> {
+    const AT_ONCE: bool = S::AT_ONCE;
+
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Dual { value: S::from_f64(value), slope: S::zero() }

@@ -12,7 +12,7 @@ use wide::{f32x4, f64x2};
 macro_rules! real {
     ($float:ident, $vector:ident, $pair:ident: $two:literal, $four:ident: $width:literal, $sin_cos:path, $sin_cos_all:path, $sqrt:path, $fabs:path, $pow:path) => {
         impl Scalar for $float {
-            const WRITES_BY_ROWS: bool = true;
+            const AT_ONCE: bool = true;
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -62,21 +62,22 @@ macro_rules! real {
             fn compute_branch<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
                 branch: usize,
                 read: &[Self; M],
-                results: &mut [[Self; K]; N],
+                _: impl FnMut(usize, Self),
+                mut write: impl FnMut(usize, usize, Self),
             ) {
                 const { assert!(N >= 2) };
                 if branch > 0 {
                     return;
                 }
                 if N == 2 {
-                    in_lanes!($pair: $two from 0, B, N, read, results);
+                    in_lanes!($pair: $two from 0, B, N, read, write);
                 } else {
-                    in_lanes!($four: $width from 0, B, N, read, results);
+                    in_lanes!($four: $width from 0, B, N, read, write);
                 }
                 if N == 5 || N == 6 {
-                    in_lanes!($pair: $two from 4, B, N, read, results);
+                    in_lanes!($pair: $two from 4, B, N, read, write);
                 } else if N > 6 {
-                    in_lanes!($four: $width from 4, B, N, read, results);
+                    in_lanes!($four: $width from 4, B, N, read, write);
                 }
             }
             #[cfg(feature = "lanes")]

@@ -92,6 +92,7 @@ mod registers;
 mod scalar;
 #[cfg(feature = "simulation")]
 mod simulate;
+mod sines;
 #[cfg(feature = "simulation")]
 mod tangent;
 #[cfg(feature = "simulation")]
@@ -147,6 +148,8 @@ pub use parameters::{Lift, ParameterError, ParameterRule, check_parameters};
 pub use scalar::{FUSED, Real, Scalar};
 #[cfg(feature = "simulation")]
 pub use simulate::{ForwardSimulation, SimulationState};
+#[doc(hidden)]
+pub use sines::{Sines, sines_at_once};
 #[cfg(feature = "simulation")]
 pub use trajectory::{
     ConstantDirection, Cycloid, ManifoldSpline, Motion, SetPoint, TangentTrajectory, Trajectory, TrajectoryError,

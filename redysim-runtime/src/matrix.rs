@@ -9,19 +9,21 @@ use core::mem::MaybeUninit;
 /// The compiler composes a large array literal elsewhere and copies it, and a matrix that begins with zeros goes through
 /// the cache twice. Here each element is written once, into the memory of the result, as soon as it is known.
 ///
+/// Numbers are written [at once](Scalar::AT_ONCE), row by row:
+///
 /// ```
 /// use redysim_runtime::{WritingOrder, write_matrix};
 ///
-/// struct ColumnByColumn;
-/// impl WritingOrder<5> for ColumnByColumn {
-///     const RUNS: [[usize; 2]; 5] = [[0, 1], [3, 1], [1, 1], [4, 1], [2, 1]];
+/// struct ZerosLast;
+/// impl WritingOrder<5> for ZerosLast {
+///     const RUNS: [[usize; 2]; 5] = [[0, 1], [3, 1], [1, 1], [2, 1], [4, 2]];
 /// }
 /// let matrix: [[f64; 3]; 2] = write_matrix(|matrix| {
-///     let mut elements = matrix.elements::<ColumnByColumn, 5>();
+///     let mut elements = matrix.elements::<ZerosLast, 5>();
 ///     elements.write(1.0);
 ///     elements.write(2.0);
 ///     elements.write(3.0);
-///     elements.finish()
+///     elements.finish(|rows| [1.0, 3.0, 0.0, 2.0].into_iter().for_each(|element| rows.push(element)))
 /// });
 /// assert_eq!(matrix, [[1.0, 3.0, 0.0], [2.0, 0.0, 0.0]]);
 /// ```
@@ -36,7 +38,8 @@ pub fn write_matrix<S: Scalar, const ROWS: usize, const COLUMNS: usize>(
     // SAFETY: `MaybeUninit<S>` has the layout of `S`, hence the two types of matrices have the same layout. All elements are
     // initialised: `write` returned a `Written<'m>` for every lifetime `'m`, which is invariant, so that it is the one that
     // `Elements::finish` made of this matrix. `Elements` exists only for an order whose runs have every element once, writes
-    // all elements of every run that it goes past, and `finish` goes past the last one.
+    // all elements of every run that it goes past, and `finish` goes past the last one; or `finish` lends all elements to
+    // `Rows`, which writes every one that it takes away, and whose rest `finish` writes.
     unsafe { (&raw const matrix).cast::<[[S; COLUMNS]; ROWS]>().read() }
 }
 
@@ -111,12 +114,12 @@ pub struct Elements<'m, S, O, const N: usize> {
 
 impl<'m, S: Scalar, O: WritingOrder<N>, const N: usize> Elements<'m, S, O, N> {
     /// Writes `element` into all places of the next run. Has no effect if every run is already written, and for scalars that
-    /// write [row by row](Scalar::WRITES_BY_ROWS).
+    /// write all elements [at once](Scalar::AT_ONCE).
     ///
     /// The compiler knows the places, since the number of runs that are written is one that it knows.
     #[inline(always)]
     pub fn write(&mut self, element: S) {
-        if !S::WRITES_BY_ROWS {
+        if !S::AT_ONCE {
             self.write_run(element);
         }
     }
@@ -127,10 +130,10 @@ impl<'m, S: Scalar, O: WritingOrder<N>, const N: usize> Elements<'m, S, O, N> {
         self.write(S::opaque_zero());
     }
 
-    /// Writes what is left: all elements as `by_rows` gives them for scalars that write row by row, then zeros.
+    /// Writes what is left: all elements as `by_rows` gives them for scalars that write all at once, then zeros.
     #[inline(always)]
     pub fn finish(mut self, by_rows: impl FnOnce(&mut Rows<'_, S>)) -> Written<'m> {
-        if S::WRITES_BY_ROWS {
+        if S::AT_ONCE {
             let mut rows = Rows { rest: self.elements };
             by_rows(&mut rows);
             rows.zeros(rows.rest.len());
@@ -216,20 +219,23 @@ mod tests {
         const RUNS: [[usize; 2]; 7] = [[14, 1], [3, 6], [0, 1], [11, 3], [2, 1], [9, 2], [1, 1]];
     }
 
-    #[test]
-    fn elements_are_written_at_their_places_in_the_order() {
-        let by_rows: [[f64; 3]; 2] = write_matrix(|matrix| {
+    /// A matrix of six elements that are given row by row, of which all but the first `known` are not.
+    fn by_rows<S: Scalar>(known: usize, number: impl Fn(usize) -> S) -> [[S; 3]; 2] {
+        write_matrix(|matrix| {
             let mut elements = matrix.elements::<RowByRow, 6>();
-            (1..=6).for_each(|number| elements.write(f64::from(number)));
-            elements.finish()
-        });
-        assert_eq!(by_rows, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
-        let with_runs: [[f64; 5]; 3] = write_matrix(|matrix| {
-            let mut elements = matrix.elements::<WithRuns, 7>();
-            (1..=7).for_each(|number| elements.write(f64::from(number)));
-            elements.finish()
-        });
-        assert_eq!(with_runs, [[3.0, 7.0, 5.0, 2.0, 2.0], [2.0, 2.0, 2.0, 2.0, 6.0], [6.0, 4.0, 4.0, 4.0, 1.0]]);
+            (0..known).for_each(|place| elements.write(number(place)));
+            elements.finish(|rows| (0..known).for_each(|place| rows.push(number(place))))
+        })
+    }
+
+    #[test]
+    fn numbers_are_written_row_by_row_and_what_is_left_is_zero() {
+        let number = |place| place as f64 + 1.0;
+        assert_eq!(by_rows(0, number), [[0.0; 3]; 2]);
+        assert_eq!(by_rows(4, number), [[1.0, 2.0, 3.0], [4.0, 0.0, 0.0]]);
+        assert_eq!(by_rows(7, number), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        let none: [[f64; 0]; 3] = write_matrix(|matrix| matrix.elements::<RowByRow, 0>().finish(|_| {}));
+        assert_eq!(none, [[]; 3]);
     }
 
     #[test]
@@ -241,44 +247,42 @@ mod tests {
         }
     }
 
-    #[test]
     #[cfg(feature = "lanes")]
-    fn zeros_of_lanes_are_zero_in_every_lane() {
+    mod lanes {
+        use super::*;
         use crate::lanes::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
-        fn check<S: Scalar + PartialEq + core::fmt::Debug>() {
-            let one = S::one();
-            let matrix: [[S; 5]; 3] = write_matrix(|matrix| {
-                let mut elements = matrix.elements::<WithRuns, 7>();
-                elements.write(one);
-                elements.zeros();
-                elements.write(one);
-                elements.finish()
-            });
-            let mut expected = [[S::from_f64(0.0); 5]; 3];
-            (expected[0][0], expected[2][4]) = (one, one);
-            assert_eq!(matrix, expected);
-        }
-        check::<F64x2>();
-        check::<F64x4>();
-        check::<F64x8>();
-        check::<F32x4>();
-        check::<F32x8>();
-        check::<F32x16>();
-    }
 
-    #[test]
-    fn elements_that_are_left_are_zero_and_there_are_no_others() {
-        let written = |count: usize| -> [[f64; 2]; 2] {
+        /// A matrix of which the first `known` runs are written, the second with zeros.
+        fn with_runs<S: Scalar>(known: usize) -> [[S; 5]; 3] {
             write_matrix(|matrix| {
-                let mut elements = matrix.elements::<RowByRow, 4>();
-                (0..count).for_each(|_| elements.write(1.0));
-                elements.finish()
+                let mut elements = matrix.elements::<WithRuns, 7>();
+                (1..=known).for_each(|run| match run {
+                    2 => elements.zeros(),
+                    _ => elements.write(S::from_f64(run as f64)),
+                });
+                elements.finish(|_| panic!("lanes are written once they are known"))
             })
-        };
-        assert_eq!(written(0), [[0.0; 2]; 2]);
-        assert_eq!(written(3), [[1.0, 1.0], [1.0, 0.0]]);
-        assert_eq!(written(5), [[1.0; 2]; 2]);
-        let none: [[f64; 0]; 3] = write_matrix(|matrix| matrix.elements::<RowByRow, 0>().finish());
-        assert_eq!(none, [[]; 3]);
+        }
+
+        fn check<S: Scalar + PartialEq>() {
+            let numbers = |rows: [[u8; 5]; 3]| rows.map(|row| row.map(|number| S::from_f64(f64::from(number))));
+            assert_eq!(with_runs::<S>(0), numbers([[0; 5]; 3]));
+            assert_eq!(with_runs::<S>(4), numbers([[3, 0, 0, 0, 0], [0; 5], [0, 4, 4, 4, 1]]));
+            let all = numbers([[3, 7, 5, 0, 0], [0, 0, 0, 0, 6], [6, 4, 4, 4, 1]]);
+            assert_eq!(with_runs::<S>(7), all);
+            assert_eq!(with_runs::<S>(9), all);
+        }
+
+        #[test]
+        fn each_element_is_written_at_its_place_in_the_order_and_what_is_left_is_zero() {
+            check::<F64x2>();
+            check::<F64x4>();
+            check::<F64x8>();
+            check::<F32x4>();
+            check::<F32x8>();
+            check::<F32x16>();
+            let number = |place: usize| F64x2::from_f64(place as f64);
+            assert_eq!(by_rows(7, number), [[0, 1, 2], [3, 4, 5]].map(|row| row.map(number)));
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The numbers that dynamics is computed with.
 
-use crate::branches::{self, Branches};
+use crate::branches::Branches;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -88,21 +88,30 @@ pub trait Scalar:
         Self::zero()
     }
 
-    /// Whether large matrices are written row by row once all elements are known: neighbouring numbers become vectors. Others write
-    /// each element as soon as it is known.
+    /// Whether generated code computes all sines, all branches that are alike, and all elements of a large matrix at once: numbers
+    /// do, in vectors. Other scalars compute sines when they are read, and write an element as soon as it is known.
     #[doc(hidden)]
-    const WRITES_BY_ROWS: bool = false;
+    const AT_ONCE: bool = false;
 
-    /// Computes the results of one of the [`Branches`] `B`. Numbers compute those of all branches with the first one, in the lanes
-    /// of a vector.
+    /// Computes one of the [`Branches`] `B`, and calls `known` with the index and the value of every result once it is known,
+    /// `write` with the branch, the index and the value at the end. Numbers compute all branches with the first one, in the
+    /// lanes of a vector, and call `write` alone.
     #[doc(hidden)]
     #[inline(always)]
     fn compute_branch<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
         branch: usize,
         read: &[Self; M],
-        results: &mut [[Self; K]; N],
+        known: impl FnMut(usize, Self),
+        mut write: impl FnMut(usize, usize, Self),
     ) {
-        branches::one::<Self, B, M, N, K>(branch, read, results);
+        B::compute(
+            read,
+            #[inline(always)]
+            |x| x[branch],
+            known,
+            #[inline(always)]
+            |column, value| write(branch, column, value),
+        );
     }
 
     /// Zero.

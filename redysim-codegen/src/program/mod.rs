@@ -253,7 +253,7 @@ impl Value {
     }
 
     /// Calls `visit` with every variable in the value.
-    fn variables<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
+    pub fn variables<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
         match self {
             Value::Variable(name) => visit(name),
             _ => self.operands().into_iter().flatten().for_each(|operand| operand.variables(visit)),

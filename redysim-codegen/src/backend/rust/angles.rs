@@ -1,6 +1,7 @@
 //! Angles as Rust expressions of the coordinates.
 
-use super::body::{constant, local};
+use super::body::local;
+use super::values::constant;
 use crate::angles::{Angle, Term};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;

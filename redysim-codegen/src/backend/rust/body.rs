@@ -1,7 +1,10 @@
 //! The body of a function as Rust: its program, printed as statements and expressions over `S: Scalar`.
 
-use super::writes::{Moment, Write, Writes};
-use crate::program::{Carried, Index, LiveOutArray, Loop, LoopRead, Program, SideBySide, Statement, Trig, Value};
+use super::moments::Moment;
+use super::sines::SinesWhenRead;
+use super::values::{Binding, FROM_F64, Printer, constant, trig};
+use super::writes::Writes;
+use crate::program::{Carried, LiveOutArray, Loop, LoopRead, Program, SideBySide, Statement, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use std::collections::HashMap;
@@ -11,123 +14,94 @@ pub const SIN: &str = "sin";
 pub const COS: &str = "cos";
 /// The name of the argument that has the numbers that are given at run time.
 pub const GIVEN: &str = "given";
-/// The local name of `S::from_f64`.
-const FROM_F64: &str = "k";
 /// The variable of a loop: which group of bodies it is at.
-const GROUP: &str = "group";
+pub const GROUP: &str = "group";
 /// The constants of the group.
-const ROW: &str = "constants";
+pub const ROW: &str = "constants";
 
+/// The sines and cosines of a function that computes them when it reads them.
+pub const SINES: &str = "sines";
 /// The matrix that a function gives, where it is not written as a literal.
 pub const MATRIX: &str = "matrix";
 
 /// Names that variables must not have, beside those of arguments.
-pub const RESERVED: [&str; 10] = [GIVEN, FROM_F64, SIN, COS, GROUP, ROW, MATRIX, "read", "each", "write"];
+pub const RESERVED: [&str; 14] =
+    [GIVEN, FROM_F64, SIN, COS, GROUP, ROW, SINES, MATRIX, "read", "each", "known", "write", "result", "value"];
 
 /// The name of an argument or a local value.
 pub fn local(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
-/// A number in full precision: the shortest digits that give the same `f64`.
-pub fn constant(value: f64) -> TokenStream {
-    if !value.is_finite() {
-        // No checked model has such a number. If one arises all the same, the result shows it.
-        return quote!(f64::NAN);
-    }
-    let digits: Literal = format!("{:?}", value.abs()).parse().expect("a finite number is a literal");
-    if value < 0.0 { quote!(-#digits) } else { quote!(#digits) }
+/// When a function does what it need not do at once.
+#[derive(Default)]
+pub struct Schedule {
+    /// The writes of the elements of its matrix, if it writes them.
+    pub writes: Option<Writes>,
+    /// The computation of its sines and cosines, if it does not have them from the beginning.
+    pub sines: Option<SinesWhenRead>,
 }
 
-/// The body of a function of the given arguments: statements, then the result that `result` makes of the outputs.
+/// The body of a function of the given arguments: statements, then the result that `result` makes of the outputs, or the matrix
+/// of which all elements are written.
 pub fn body(
     program: &Program,
     arguments: &[&str],
     runtime: &TokenStream,
+    schedule: &Schedule,
     result: impl FnOnce(&[TokenStream]) -> TokenStream,
 ) -> TokenStream {
-    let (printer, k) = (Printer { arguments, runtime }, local(FROM_F64));
-    let statements = program.statements.iter().map(|statement| printer.statement(statement));
-    let result = result(&printer.outputs(program));
-    quote! {
-        let #k = S::from_f64;
-        #(#statements)*
-        #result
-    }
-}
-
-/// The body of a function that writes the elements of its matrix when `writes` has them.
-pub fn writing_body(program: &Program, arguments: &[&str], runtime: &TokenStream, writes: &Writes) -> TokenStream {
-    let (printer, k, matrix) = (Printer { arguments, runtime }, local(FROM_F64), local(MATRIX));
+    let Schedule { writes, sines } = schedule;
+    let expressions = sines.as_ref().map_or_else(HashMap::new, SinesWhenRead::expressions);
+    let (printer, k, matrix) = (Printer { arguments, runtime, expressions }, local(FROM_F64), local(MATRIX));
     let outputs = printer.outputs(program);
-    let at = |moment| {
-        let code = writes.at(moment).iter().map(|write| match *write {
-            Write::Output(number) => {
-                let value = &outputs[number];
-                quote!(#matrix.write(#value);)
-            }
-            Write::Zeros => quote!(#matrix.zeros();),
-        });
-        quote!(#(#code)*)
-    };
-    let first = at(Moment::default());
-    let by_rows = program.outputs.iter().zip(&outputs).collect::<Vec<_>>();
-    let by_rows = by_rows.chunk_by(|(a, _), (b, _)| a.is_zero() && b.is_zero()).map(|run| match *run {
-        [(output, value)] if !output.is_zero() => quote!(#matrix.push(#value);),
-        _ => {
-            let count = Literal::usize_unsuffixed(run.len());
-            quote!(#matrix.zeros(#count);)
-        }
-    });
-    let by_rows = quote!(#(#by_rows)*);
-    let statements = (1..).zip(&program.statements).map(|(statements, statement)| {
-        if let Statement::SideBySide(side_by_side) = statement {
-            let (name, branches) = (local(&side_by_side.name), printer.side_by_side(side_by_side));
-            let computed = (0..side_by_side.branches).map(|branch| {
-                let (number, written) = (Literal::usize_unsuffixed(branch), at(Moment { statements, branch }));
-                quote!(#name.compute(#number); #written)
+    let computed = sines.as_ref().map(|sines| sines.computed_at(Moment::default()));
+    let statements = (1..).zip(&program.statements).map(|(statements, statement)| match statement {
+        Statement::Destructure { .. } if sines.is_some() => TokenStream::new(),
+        Statement::SideBySide(each) if writes.is_some() || sines.is_some() => {
+            let (name, (branches, read)) = (local(&each.name), printer.side_by_side(each, true));
+            let computed = (0..each.branches).map(|branch| {
+                let moment = Moment { statements, branch, result: None };
+                let sines = sines.as_ref().map(|sines| sines.computed_at(moment));
+                let written = writes.as_ref().map(|writes| writes.after(statements, branch, &outputs));
+                let with_results = writes.as_ref().map_or_else(
+                    || {
+                        quote!(
+                            #[inline(always)]
+                            |_, _| {}
+                        )
+                    },
+                    |writes| writes.with_results(statements, branch, program),
+                );
+                let branch = Literal::usize_unsuffixed(branch);
+                quote!(#sines #name.compute(#branch, &#read, #with_results); #written)
             });
             quote!(let mut #name = #branches; #(#computed)*)
-        } else {
-            let (code, written) = (printer.statement(statement), at(Moment { statements, branch: 0 }));
+        }
+        _ => {
+            let written = writes.as_ref().map(|writes| writes.after(statements, 0, &outputs));
+            let code = printer.statement(statement);
             quote!(#code #written)
         }
     });
-    let (count, runs) = (
-        Literal::usize_unsuffixed(writes.runs.len()),
-        writes.runs.iter().map(|run| {
-            let [first, length] = run.map(Literal::usize_unsuffixed);
-            quote!([#first, #length])
-        }),
-    );
-    quote! {
-        struct Order;
-        impl #runtime::WritingOrder<#count> for Order {
-            const RUNS: [[usize; 2]; #count] = [#(#runs),*];
+    let (begun, result) = match writes {
+        Some(writes) => {
+            let (order, count) = writes.order(runtime);
+            let (first, by_rows) = (writes.first(&outputs), Writes::by_rows(program, &outputs));
+            (
+                quote!(#order let mut #matrix = #matrix.elements::<Order, #count>(); #first),
+                quote!(#matrix.finish(#[inline(always)] |#matrix| { #by_rows })),
+            )
         }
+        None => (TokenStream::new(), result(&outputs)),
+    };
+    quote! {
         let #k = S::from_f64;
-        let mut #matrix = #matrix.elements::<Order, #count>();
-        #first
+        #begun
+        #computed
         #(#statements)*
-        #matrix.finish(#[inline(always)] |#matrix| { #by_rows })
+        #result
     }
-}
-
-/// Prints statements and values.
-struct Printer<'a> {
-    /// The names of the function's arguments.
-    arguments: &'a [&'a str],
-    /// The path of the crate `redysim_runtime`.
-    runtime: &'a TokenStream,
-}
-
-/// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
-#[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Binding {
-    Lowest,
-    Sum,
-    Product,
-    Unary,
 }
 
 impl Printer<'_> {
@@ -157,19 +131,24 @@ impl Printer<'_> {
             }
             Statement::Loop(each) => self.sweep(each),
             Statement::SideBySide(each) => {
-                let (name, branches) = (local(&each.name), self.side_by_side(each));
-                quote!(let #name = #branches.all();)
+                let (name, (branches, _)) = (local(&each.name), self.side_by_side(each, false));
+                quote!(let #name = #branches;)
             }
         }
     }
 
-    /// Branches, of which none is computed yet.
+    /// The results of all branches, or, to compute them `one_by_one`, none yet; and what the branches read.
     ///
     /// ```text
     /// {
     ///     struct Branch;
     ///     impl<T: Scalar> Branches<T, 9, 4, 2> for Branch {
-    ///         fn compute<S: Scalar>(read: &[T; 9], each: impl Fn([T; 4]) -> S, mut write: impl FnMut(usize, S)) {
+    ///         fn compute<S: Scalar>(
+    ///             read: &[T; 9],
+    ///             each: impl Fn([T; 4]) -> S,
+    ///             _: impl FnMut(usize, S),
+    ///             mut write: impl FnMut(usize, S),
+    ///         ) {
     ///             let k = S::from_f64;
     ///             let v_hip = each([read[0], read[1], read[2], read[3]]);
     ///             let each1 = each([T::from_f64(0.1), …]);
@@ -177,10 +156,14 @@ impl Printer<'_> {
     ///             write(0, w_thigh_x);
     ///         }
     ///     }
-    ///     SideBySide::<S, Branch, 9, 4, 2>::new([v[6], v[9], …])
+    ///     SideBySide::<S, Branch, 9, 4, 2>::all(&[v[6], v[9], …])
     /// }
     /// ```
-    fn side_by_side(&self, SideBySide { branches, inputs, body, results, .. }: &SideBySide) -> TokenStream {
+    fn side_by_side(
+        &self,
+        SideBySide { branches, inputs, body, results, .. }: &SideBySide,
+        one_by_one: bool,
+    ) -> (TokenStream, TokenStream) {
         let mut read: Vec<TokenStream> = Vec::new();
         let mut places: HashMap<String, usize> = HashMap::new();
         let inputs: Vec<TokenStream> = inputs
@@ -206,13 +189,25 @@ impl Printer<'_> {
             })
             .collect();
         let [reads, branches, columns] = [read.len(), *branches, results.len()].map(Literal::usize_unsuffixed);
-        let code = body.iter().map(|statement| self.statement(statement));
-        let results = results.iter().enumerate().map(|(column, result)| {
-            let (column, result) = (Literal::usize_unsuffixed(column), local(result));
-            quote!(write(#column, #result);)
+        let call = |function: &str, column: usize| {
+            let (function, result) = (local(function), local(&results[column]));
+            let column = Literal::usize_unsuffixed(column);
+            quote!(#function(#column, #result);)
+        };
+        let code = body.iter().map(|statement| {
+            let code = self.statement(statement);
+            let column = match statement {
+                Statement::Let { name, .. } => results.iter().position(|result| result == name),
+                _ => None,
+            };
+            let known = column.filter(|_| one_by_one).map(|column| call("known", column));
+            quote!(#code #known)
         });
-        let (k, runtime) = (local(FROM_F64), self.runtime);
-        quote! {
+        let written = (0..results.len()).map(|column| call("write", column));
+        let (k, runtime, known, read) = (local(FROM_F64), self.runtime, local("known"), quote!([#(#read),*]));
+        let known = if one_by_one { quote!(mut #known) } else { quote!(_) };
+        let begun = if one_by_one { quote!(begun()) } else { quote!(all(&#read)) };
+        let branches = quote! {
             {
                 struct Branch;
                 impl<T: #runtime::Scalar> #runtime::Branches<T, #reads, #branches, #columns> for Branch {
@@ -220,17 +215,19 @@ impl Printer<'_> {
                     fn compute<S: #runtime::Scalar>(
                         read: &[T; #reads],
                         each: impl Fn([T; #branches]) -> S,
+                        #known: impl FnMut(usize, S),
                         mut write: impl FnMut(usize, S),
                     ) {
                         let #k = S::from_f64;
                         #(#inputs)*
                         #(#code)*
-                        #(#results)*
+                        #(#written)*
                     }
                 }
-                #runtime::SideBySide::<S, Branch, #reads, #branches, #columns>::new([#(#read),*])
+                #runtime::SideBySide::<S, Branch, #reads, #branches, #columns>::#begun
             }
-        }
+        };
+        (branches, read)
     }
 
     /// ```text
@@ -285,104 +282,6 @@ impl Printer<'_> {
                     #(#steps)*
                     #(#store)*
                 }
-            }
-        }
-    }
-
-    /// The value of a carried variable before the first group.
-    fn start(&self, value: &Value) -> TokenStream {
-        if value.is_zero() { quote!(S::zero()) } else { self.value(value, Binding::Lowest) }
-    }
-
-    fn value(&self, value: &Value, binding: Binding) -> TokenStream {
-        let (own, tokens) = match value {
-            Value::Constant(value) => {
-                let (k, value) = (local(FROM_F64), constant(*value));
-                return quote!(#k(#value));
-            }
-            Value::GroupConstant(column) => {
-                let (k, row, column) = (local(FROM_F64), local(ROW), Literal::usize_unsuffixed(*column));
-                return quote!(#k(#row[#column]));
-            }
-            Value::Variable(name) => {
-                let name = local(name);
-                return quote!(#name);
-            }
-            Value::Argument(argument, place) => {
-                let (argument, place) = (local(self.arguments[*argument]), index(*place));
-                return quote!(#argument[#place]);
-            }
-            Value::Given(place) => {
-                let (given, place) = (local(GIVEN), Literal::usize_unsuffixed(*place));
-                return quote!(#given[#place]);
-            }
-            Value::Trig(array, place) => {
-                let (array, place) = (trig(*array), index(*place));
-                return quote!(#array[#place]);
-            }
-            Value::LiveOut(array, row, column) | Value::OfBranch { array, branch: row, column, .. } => {
-                let (array, [row, column]) = (local(array), [*row, *column].map(Literal::usize_unsuffixed));
-                return quote!(#array[#row][#column]);
-            }
-            Value::Negative(a) => {
-                let a = self.value(a, Binding::Unary);
-                return quote!(-#a);
-            }
-            Value::MultiplyAdd(a, b, c) => {
-                let [a, b, c] = [a, b, c].map(|operand| self.value(operand, Binding::Lowest));
-                return quote!(S::mul_add(#a, #b, #c));
-            }
-            Value::SquareRoot(a) => {
-                let a = self.value(a, Binding::Lowest);
-                return quote!(S::sqrt(#a));
-            }
-            Value::Sine(a) | Value::Cosine(a) => {
-                let (angle, part) = (self.value(a, Binding::Lowest), usize::from(matches!(value, Value::Cosine(_))));
-                let part = Literal::usize_unsuffixed(part);
-                return quote!(S::sin_cos(#angle).#part);
-            }
-            Value::Sum(a, b) => {
-                let (a, b) = (self.value(a, Binding::Lowest), self.value(b, Binding::Sum));
-                (Binding::Sum, quote!(#a + #b))
-            }
-            Value::Difference(a, b) => {
-                let (a, b) = (self.value(a, Binding::Lowest), self.value(b, Binding::Sum));
-                (Binding::Sum, quote!(#a - #b))
-            }
-            Value::Product(a, b) => {
-                let (a, b) = (self.value(a, Binding::Sum), self.value(b, Binding::Product));
-                (Binding::Product, quote!(#a * #b))
-            }
-            Value::Quotient(a, b) => {
-                let (a, b) = (self.value(a, Binding::Sum), self.value(b, Binding::Product));
-                (Binding::Product, quote!(#a / #b))
-            }
-        };
-        if own <= binding && binding != Binding::Lowest { quote!((#tokens)) } else { tokens }
-    }
-}
-
-fn trig(array: Trig) -> Ident {
-    local(match array {
-        Trig::Sines => SIN,
-        Trig::Cosines => COS,
-    })
-}
-
-fn index(index: Index) -> TokenStream {
-    let group = local(GROUP);
-    match index {
-        Index::At(place) => {
-            let place = Literal::usize_unsuffixed(place);
-            quote!(#place)
-        }
-        Index::OfGroup { first, period } => {
-            let [first_place, length] = [first, period].map(Literal::usize_unsuffixed);
-            match (first, period) {
-                (0, 1) => quote!(#group),
-                (0, _) => quote!(#length * #group),
-                (_, 1) => quote!(#group + #first_place),
-                _ => quote!(#length * #group + #first_place),
             }
         }
     }

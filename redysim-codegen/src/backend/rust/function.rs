@@ -1,7 +1,8 @@
 //! One function of a mechanism: of coordinates, and of precomputed joint trigonometry.
 
-use super::body::{COS, MATRIX, SIN, body, local, writing_body};
+use super::body::{COS, MATRIX, SIN, SINES, Schedule, body, local};
 use super::parametric::Form;
+use super::sines::SinesWhenRead;
 use super::writes::Writes;
 use super::{length, results, trig};
 use crate::mechanism::{FunctionProgram, TrigProgram};
@@ -48,22 +49,19 @@ impl Writer<'_> {
     }
 
     /// The code of a function after the sines and cosines.
-    pub fn body(&self, FunctionProgram { function, program, .. }: &FunctionProgram) -> TokenStream {
+    fn body(&self, FunctionProgram { function, program, .. }: &FunctionProgram, schedule: &Schedule) -> TokenStream {
         let signature = function.signature();
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
         let as_numbers = signature.arguments.iter().filter_map(|argument| as_numbers(*argument, self.interface));
-        let body = match Writes::of(signature.result, program) {
-            Some(writes) => writing_body(program, &arguments, self.runtime, &writes),
-            None => body(program, &arguments, self.runtime, |outputs| {
-                results::value(signature.result, self.interface, outputs, self.runtime)
-            }),
-        };
+        let body = body(program, &arguments, self.runtime, schedule, |outputs| {
+            results::value(signature.result, self.interface, outputs, self.runtime)
+        });
         quote!(#(#as_numbers)* #body)
     }
 
     /// The code of a function with that of the sines and cosines that it needs.
     pub fn whole_body(&self, program: &FunctionProgram) -> TokenStream {
-        let body = self.body(program);
+        let body = self.body(program, &Schedule::default());
         if program.trig.angles.is_empty() {
             return body;
         }
@@ -75,7 +73,11 @@ impl Writer<'_> {
     /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and
     /// cosines is a third function, inlined into both, so that sines and cosines do not go through memory.
     pub fn function(&self, program: &FunctionProgram) -> TokenStream {
-        let (reads, body) = (Form::of(self.interface, self.runtime).reads, self.body(program));
+        let angles_in_order = trig::in_order_of_reading(&program.trig, &program.program);
+        let writes = Writes::of(program.function.signature().result, &program.program);
+        let sines = writes.as_ref().and_then(|_| SinesWhenRead::of(&angles_in_order, &program.program));
+        let schedule = Schedule { writes, sines };
+        let (reads, body) = (Form::of(self.interface, self.runtime).reads, self.body(program, &schedule));
         let FunctionProgram { function, ref documentation, trig: ref angles_read, .. } = *program;
         let (Writer { interface, runtime, .. }, angles) = (*self, self.angles());
         let (head, head_with_trig) =
@@ -86,20 +88,28 @@ impl Writer<'_> {
             format!(" [`{0}`](Self::{0}) with sines and cosines that are already computed.", function.name());
         let (inlined, q, argument) = (inlined(function), local("q"), local(TRIG));
         let others: Vec<Ident> = others(function).collect();
-        let (computed, sin, cos) = trig::of_function(angles_read, &program.program);
         let caller = Form::of(interface, runtime).caller;
-        let written = Writes::of(function.signature().result, &program.program).map(|_| local(MATRIX));
-        let head_inlined = head_inlined(function, interface, &angles, runtime, written.as_ref());
-        let whole = |computed: &TokenStream, arguments: &TokenStream| match &written {
-            None => with_target_features(&quote!(#computed #caller #inlined(#arguments))),
-            Some(matrix) => {
-                let body = with_target_features(&quote!(#computed #caller #inlined(#arguments, #matrix)));
-                quote!(#runtime::write_matrix(#[inline(always)] |#matrix| #body))
+        let written = schedule.writes.as_ref().map(|_| local(MATRIX));
+        let head_inlined = head_inlined(function, interface, &angles, runtime, &schedule);
+        let whole = |computed: &TokenStream, sines: &TokenStream, q: &TokenStream| {
+            let matrix = written.iter();
+            let call = quote!(#computed #caller #inlined(#q, #sines #(, #others)* #(, #matrix)*));
+            let body = with_target_features(&call);
+            match &written {
+                None => body,
+                Some(matrix) => quote!(#runtime::write_matrix(#[inline(always)] |#matrix| #body)),
             }
         };
-        let of_coordinates = whole(&computed.into_token_stream(), &quote!(#q, #sin, #cos #(, #others)*));
-        let of_joint_trig =
-            whole(&TokenStream::new(), &quote!(&#argument.#q, &#argument.sin, &#argument.cos #(, #others)*));
+        let ((computed, sines), (read, given)) = match &schedule.sines {
+            None => {
+                let (computed, sin, cos) = trig::of_function(angles_read, &program.program);
+                let given = quote!(&#argument.sin, &#argument.cos);
+                ((computed.unwrap_or_default(), quote!(#sin, #cos)), (TokenStream::new(), given))
+            }
+            Some(_) => (trig::when_read(&angles_in_order, runtime), trig::given(&angles_in_order, &argument, runtime)),
+        };
+        let of_coordinates = whole(&computed, &sines, &quote!(#q));
+        let of_joint_trig = whole(&read, &given, &quote!(&#argument.#q));
         // Inlined, the call that writes the elements would not know that it may write them into the caller's matrix.
         let not_inlined = written.as_ref().map(|_| quote!(#[inline(never)]));
         quote! {
@@ -175,22 +185,23 @@ fn inlined(function: Function) -> Ident {
     format_ident!("{}_inlined", function.name())
 }
 
-/// Name, arguments and result of the function that is given the sines and cosines of `angles` angles, and the matrix that is
-/// `written` where its result is one.
+/// Name, arguments and result of the function that is given the sines and cosines of all `angles` angles, or those that it
+/// computes when it reads them, and the matrix if it writes one.
 fn head_inlined(
     function: Function,
     interface: &PublicInterface,
     angles: &TokenStream,
     runtime: &TokenStream,
-    written: Option<&Ident>,
+    schedule: &Schedule,
 ) -> TokenStream {
     let name = inlined(function);
     let [sin, cos] = [SIN, COS].map(local);
     let (q, others) =
         (parameters(function, interface, runtime).take(1), parameters(function, interface, runtime).skip(1));
     let shape = function.signature().result;
-    let (lifetime, matrix, output) = match written {
-        Some(matrix) => {
+    let (lifetime, matrix, output) = match schedule.writes {
+        Some(_) => {
+            let matrix = local(MATRIX);
             let rows = if shape == Shape::LoopJacobian { Dimension::LoopRows } else { Dimension::Velocities };
             let [rows, columns] = [rows, Dimension::Velocities].map(|dimension| length(interface, dimension));
             let argument = quote!(, #matrix: #runtime::Unwritten<'m, S, #rows, #columns>);
@@ -198,9 +209,16 @@ fn head_inlined(
         }
         None => (None, None, results::output_type(shape, interface, runtime)),
     };
+    let trig = match &schedule.sines {
+        None => quote!(#sin: &[S; #angles], #cos: &[S; #angles]),
+        Some(SinesWhenRead { angles, .. }) => {
+            let (sines, angles) = (local(SINES), Literal::usize_unsuffixed(*angles));
+            quote!(#sines: &mut #runtime::Sines<'_, S, #angles>)
+        }
+    };
     let Form { function, receiver, .. } = Form::of(interface, runtime);
     quote!(fn #name<#lifetime #function>(
-        #receiver #(#q,)* #sin: &[S; #angles], #cos: &[S; #angles] #(, #others)* #matrix
+        #receiver #(#q,)* #trig #(, #others)* #matrix
     ) -> #output)
 }
 

@@ -3,12 +3,15 @@
 mod angles;
 mod body;
 mod function;
+mod moments;
 mod parametric;
 mod results;
+mod sines;
 #[cfg(feature = "source")]
 pub mod source;
 mod traits;
 mod trig;
+mod values;
 mod writes;
 
 use crate::mechanism::MechanismProgram;

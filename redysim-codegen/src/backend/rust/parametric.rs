@@ -1,8 +1,9 @@
 //! What differs for a type that is given numbers at run time: it has a field with what depends on them alone, its
 //! functions are methods, and the scalar is a parameter of the type.
 
-use super::body::{GIVEN, body, constant, local};
+use super::body::{GIVEN, Schedule, body, local};
 use super::length_of;
+use super::values::constant;
 use crate::program::Program;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -129,7 +130,9 @@ pub fn constructors(
     }
     let (np, given) = (length_of(interface, interface.parameters.len()), local(GIVEN));
     let new = match lumped {
-        Some(program) => body(program, &[], runtime, |outputs| quote!(#name { #given: [#(#outputs),*] })),
+        Some(program) => {
+            body(program, &[], runtime, &Schedule::default(), |outputs| quote!(#name { #given: [#(#outputs),*] }))
+        }
         None => quote!(::core::unreachable!()),
     };
     let rules = interface.parameters.iter().map(|parameter| match parameter.rule {

@@ -4,7 +4,7 @@ use super::angles::{angle, without_turns};
 use super::body::{COS, SIN, local};
 use crate::mechanism::TrigProgram;
 use crate::program::{Program, Statement};
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use std::collections::HashMap;
 
@@ -36,6 +36,32 @@ pub fn of_function(trig: &TrigProgram, program: &Program) -> (Option<TokenStream
     (computed, sin, cos)
 }
 
+/// The statements before a function that computes its sines and cosines when it reads them, and what it is given. The angles of
+/// `trig` are in the order of the function.
+pub fn when_read(trig: &TrigProgram, runtime: &TokenStream) -> (TokenStream, TokenStream) {
+    let (turns_taken_off, angles) = (turns_taken_off(trig), trig.angles.iter().map(angle));
+    let computed = quote! {
+        #turns_taken_off
+        let angles = [#(#angles),*];
+        let (mut sin, mut cos) = #runtime::sines_at_once(&angles);
+    };
+    (computed, quote!(&mut #runtime::Sines { angles: Some(&angles), sin: &mut sin, cos: &mut cos }))
+}
+
+/// The same for one to which the sines and cosines of all angles are given in `argument`.
+pub fn given(trig: &TrigProgram, argument: &Ident, runtime: &TokenStream) -> (TokenStream, TokenStream) {
+    let [sin, cos] = [SIN, COS].map(|array| {
+        let array = local(array);
+        let elements = (0..trig.angles.len()).map(|number| {
+            let place = trig.places.iter().position(|place| *place == Some(number)).map(Literal::usize_unsuffixed);
+            quote!(#argument.#array[#place])
+        });
+        quote!([#(#elements),*])
+    });
+    let computed = quote!(let (mut sin, mut cos) = (#sin, #cos););
+    (computed, quote!(&mut #runtime::Sines { angles: None, sin: &mut sin, cos: &mut cos }))
+}
+
 /// The statement that takes whole turns off coordinates.
 fn turns_taken_off(TrigProgram { without_turns: coordinates, .. }: &TrigProgram) -> Option<TokenStream> {
     let (q, names) = (local("q"), coordinates.iter().map(|&coordinate| without_turns(coordinate)));
@@ -46,7 +72,7 @@ fn turns_taken_off(TrigProgram { without_turns: coordinates, .. }: &TrigProgram)
 /// The same angles in the order in which their sines and cosines are best computed, a vector of them after the other: those that
 /// `program` reads first come first, so that it begins while the others are computed, and branches side by side read a vector as
 /// it was computed. In a vector the angles keep their order, since coordinates in a row are loaded at once.
-fn in_order_of_reading(trig: &TrigProgram, program: &Program) -> TrigProgram {
+pub fn in_order_of_reading(trig: &TrigProgram, program: &Program) -> TrigProgram {
     let mut order: Vec<usize> = Vec::with_capacity(trig.angles.len());
     // Loops read angles by the number of their group, and outputs last.
     let others = trig.places.iter().copied();

@@ -1,9 +1,13 @@
 //! When a function writes the elements of a large matrix: each as soon as it is known, so that lanes neither keep results in
 //! registers nor write all of them at the end, while nothing is left to compute.
 
-use crate::program::{Loop, Program, Statement, Value};
+use super::body::{MATRIX, local};
+use super::moments::{Known, Moment};
+use crate::program::{Program, Value};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
 use redysim_runtime::function::Shape;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// From this number of elements on, a matrix of which at least a third are zero is written element by element where the function
 /// returns it. LLVM composes an array literal of that size elsewhere and copies it, which in lanes takes more time than to
@@ -13,22 +17,13 @@ const LARGE_MATRIX: usize = 256;
 /// The order in which the elements of a matrix are written, and when.
 pub struct Writes {
     /// The first place of each run of elements that are the same number, and how many they are, as they are written.
-    pub runs: Vec<[usize; 2]>,
+    runs: Vec<[usize; 2]>,
     at: BTreeMap<Moment, Vec<Write>>,
-}
-
-/// A moment after a statement and, if that computes branches side by side, after a branch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Moment {
-    /// How many statements come before it.
-    pub statements: usize,
-    /// The branch of the last of them.
-    pub branch: usize,
 }
 
 /// What is written into a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Write {
+enum Write {
     /// The output of this number, one element.
     Output(usize),
     /// Zeros.
@@ -50,13 +45,13 @@ impl Writes {
         let known = Known::in_program(program);
         let numbered = || program.outputs.iter().enumerate();
         let mut outputs: Vec<_> = numbered().filter(|(_, output)| !output.is_zero()).collect();
-        outputs.sort_by_cached_key(|(_, output)| known.output(output));
+        outputs.sort_by_cached_key(|(_, output)| known.value(output));
         let places: Vec<usize> = numbered().filter(|(_, output)| output.is_zero()).map(|(place, _)| place).collect();
         let mut zeros = places.chunk_by(|place, next| place + 1 == *next).map(|run| [run[0], run.len()]).peekable();
         let mut writes = Writes { runs: Vec::new(), at: BTreeMap::new() };
         let mut zeros_written = 0;
         for (written, (place, output)) in (1..).zip(&outputs) {
-            let (moment, _) = known.output(output);
+            let moment = known.value(output);
             writes.push(moment, [*place, 1], Write::Output(*place));
             while let Some(run) = zeros.next_if(|_| zeros_written * outputs.len() < written * places.len()) {
                 zeros_written += run[1];
@@ -72,43 +67,162 @@ impl Writes {
         self.at.entry(moment).or_default().push(write);
     }
 
-    /// What is written at this moment.
-    pub fn at(&self, moment: Moment) -> &[Write] {
-        self.at.get(&moment).map_or(&[], Vec::as_slice)
+    /// The code that writes what is known after a statement, or after a branch of it, where the outputs have this code.
+    pub fn after(&self, statements: usize, branch: usize, outputs: &[TokenStream]) -> TokenStream {
+        let writes = self.at.get(&Moment::after(statements, branch)).map_or(&[][..], Vec::as_slice);
+        code(writes, |output| outputs[output].clone())
+    }
+
+    /// The code that writes what is known before the first statement.
+    pub fn first(&self, outputs: &[TokenStream]) -> TokenStream {
+        code(self.at.get(&Moment::default()).map_or(&[][..], Vec::as_slice), |output| outputs[output].clone())
+    }
+
+    /// The closure that writes what is known with each result of a branch.
+    pub fn with_results(&self, statements: usize, branch: usize, program: &Program) -> TokenStream {
+        let first = Moment { statements, branch, result: Some(0) };
+        let arms: Vec<TokenStream> = self
+            .at
+            .range(first..Moment::after(statements, branch))
+            .map(|(moment, writes)| {
+                let result = moment.result.map(Literal::usize_unsuffixed);
+                let code = code(writes, |output| match program.outputs[output] {
+                    Value::Negative(_) => quote!(-value),
+                    _ => quote!(value),
+                });
+                quote!(#result => { #code })
+            })
+            .collect();
+        if arms.is_empty() {
+            return quote!(
+                #[inline(always)]
+                |_, _| {}
+            );
+        }
+        quote!(#[inline(always)] |result, value| match result { #(#arms)* _ => {} })
+    }
+
+    /// The code that writes all elements row by row.
+    pub fn by_rows(program: &Program, outputs: &[TokenStream]) -> TokenStream {
+        let (matrix, elements) = (local(MATRIX), program.outputs.iter().zip(outputs).collect::<Vec<_>>());
+        let runs = elements.chunk_by(|(a, _), (b, _)| a.is_zero() && b.is_zero()).map(|run| match *run {
+            [(output, value)] if !output.is_zero() => quote!(#matrix.push(#value);),
+            _ => {
+                let count = Literal::usize_unsuffixed(run.len());
+                quote!(#matrix.zeros(#count);)
+            }
+        });
+        quote!(#(#runs)*)
+    }
+
+    /// The declaration of the order, and the number of its runs.
+    pub fn order(&self, runtime: &TokenStream) -> (TokenStream, Literal) {
+        let count = Literal::usize_unsuffixed(self.runs.len());
+        let runs = self.runs.iter().map(|run| {
+            let [first, length] = run.map(Literal::usize_unsuffixed);
+            quote!([#first, #length])
+        });
+        let declaration = quote! {
+            struct Order;
+            impl #runtime::WritingOrder<#count> for Order {
+                const RUNS: [[usize; 2]; #count] = [#(#runs),*];
+            }
+        };
+        (declaration, count)
     }
 }
 
-/// When the variables and arrays of a program are known.
-struct Known<'p>(HashMap<&'p str, usize>);
-
-impl<'p> Known<'p> {
-    fn in_program(program: &'p Program) -> Self {
-        let mut known = HashMap::new();
-        for (statements, statement) in (1..).zip(&program.statements) {
-            let mut define = |name: &'p String| _ = known.insert(name.as_str(), statements);
-            match statement {
-                Statement::Destructure { names, .. } => names.iter().flatten().for_each(define),
-                Statement::Let { name, .. } => define(name),
-                Statement::Block { live_out, .. } => live_out.iter().for_each(define),
-                Statement::Loop(Loop { carried, live_out, .. }) => {
-                    carried.iter().map(|carried| &carried.name).for_each(&mut define);
-                    live_out.iter().map(|array| &array.name).for_each(define);
-                }
-                Statement::SideBySide(side_by_side) => define(&side_by_side.name),
-            }
+/// Code that writes, where `output` is that of an output.
+fn code(writes: &[Write], output: impl Fn(usize) -> TokenStream) -> TokenStream {
+    let matrix = local(MATRIX);
+    let code = writes.iter().map(|write| match *write {
+        Write::Output(number) => {
+            let value = output(number);
+            quote!(#matrix.write(#value);)
         }
-        Known(known)
+        Write::Zeros => quote!(#matrix.zeros();),
+    });
+    quote!(#(#code)*)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::{Input, SideBySide, Statement};
+
+    fn constant(value: f64) -> Value {
+        Value::Constant(value)
     }
 
-    /// When an output is known, and the last result of a branch that it needs.
-    fn output(&self, value: &Value) -> (Moment, usize) {
-        let statements = |name: &String| self.0.get(name.as_str()).copied().unwrap_or_default();
-        match value {
-            Value::Variable(name) | Value::LiveOut(name, ..) => (Moment { statements: statements(name), branch: 0 }, 0),
-            Value::OfBranch { array, branch, column, .. } => {
-                (Moment { statements: statements(array), branch: *branch }, *column)
-            }
-            _ => value.operands().into_iter().flatten().map(|operand| self.output(operand)).max().unwrap_or_default(),
-        }
+    fn of_leg(branch: usize, column: usize) -> Value {
+        Value::OfBranch { array: "legs".into(), branches: 2, branch, column }
+    }
+
+    /// The function of a matrix with these elements, of two legs with two results each and of their sum.
+    fn function(outputs: Vec<Value>) -> Program {
+        let legs = SideBySide {
+            name: "legs".into(),
+            branches: 2,
+            inputs: vec![Input { name: "length".into(), branches: [1.0, 2.0].map(constant).into() }],
+            body: Vec::new(),
+            results: vec!["a".into(), "b".into()],
+        };
+        let sum = Value::Sum(Box::new(of_leg(0, 0)), Box::new(of_leg(1, 0)));
+        let statements = vec![Statement::SideBySide(legs), Statement::Let { name: "sum".into(), value: sum }];
+        Program { statements, outputs }
+    }
+
+    fn text(tokens: TokenStream) -> String {
+        tokens.to_string().replace(' ', "")
+    }
+
+    #[test]
+    fn a_large_matrix_with_zeros_is_written_and_no_other() {
+        let matrix = |size: usize, is_set: fn(usize, usize) -> bool| {
+            let value = |place| if is_set(place / size, place % size) { 1.0 } else { 0.0 };
+            function((0..size * size).map(|place| constant(value(place))).collect())
+        };
+        let is_written = |shape, program: &Program| Writes::of(shape, program).is_some();
+        assert!(is_written(Shape::MassMatrix, &matrix(16, |row, column| row == column)));
+        assert!(!is_written(Shape::MassMatrix, &matrix(15, |row, column| row == column)));
+        assert!(!is_written(Shape::MassMatrix, &matrix(16, |row, _| row < 12)));
+        assert!(!is_written(Shape::Forces, &matrix(16, |row, column| row == column)));
+    }
+
+    #[test]
+    fn elements_are_written_once_they_are_known_and_zeros_among_them() {
+        let minus = |value| Value::Negative(Box::new(value));
+        let outputs = vec![
+            Value::Variable("sum".into()),
+            constant(0.0),
+            constant(0.0),
+            minus(of_leg(1, 1)),
+            of_leg(0, 0),
+            Value::Sum(Box::new(of_leg(0, 0)), Box::new(of_leg(0, 1))),
+            constant(0.0),
+            constant(3.0),
+            constant(0.0),
+        ];
+        let program = function(outputs);
+        let writes = Writes::as_known(&program);
+        let code: Vec<TokenStream> = ["sum", "k(0)", "k(0)", "-b1", "a0", "a0+b0", "k(0)", "k(3)", "k(0)"]
+            .map(|code| code.parse().expect("code"))
+            .into();
+        assert_eq!(writes.runs, [[7, 1], [1, 2], [4, 1], [5, 1], [6, 1], [3, 1], [8, 1], [0, 1]]);
+        assert_eq!(text(writes.first(&code)), "matrix.write(k(3));matrix.zeros();");
+        let with_results = |branch| text(writes.with_results(1, branch, &program));
+        assert_eq!(with_results(0), "#[inline(always)]|result,value|matchresult{0=>{matrix.write(value);}_=>{}}");
+        assert_eq!(text(writes.after(1, 0, &code)), "matrix.write(a0+b0);matrix.zeros();");
+        assert_eq!(
+            with_results(1),
+            "#[inline(always)]|result,value|matchresult{1=>{matrix.write(-value);matrix.zeros();}_=>{}}"
+        );
+        assert_eq!(text(writes.after(1, 1, &code)), "");
+        assert_eq!(text(writes.after(2, 0, &code)), "matrix.write(sum);");
+        assert_eq!(
+            text(Writes::by_rows(&program, &code)),
+            "matrix.push(sum);matrix.zeros(2);matrix.push(-b1);matrix.push(a0);matrix.push(a0+b0);matrix.zeros(1);\
+             matrix.push(k(3));matrix.zeros(1);"
+        );
     }
 }
