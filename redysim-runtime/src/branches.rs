@@ -10,14 +10,9 @@ use core::ops::Deref;
 /// has the numbers of a branch.
 #[doc(hidden)]
 pub trait Branches<S, const M: usize, const N: usize, const K: usize> {
-    /// Computes the results with the scalar `P`. `each` makes one `P` of a number for each branch, `known` takes the result with
-    /// the given index once it is known, and `write` takes all at the end.
-    fn compute<P: Scalar>(
-        read: &[S; M],
-        each: impl Fn([S; N]) -> P,
-        known: impl FnMut(usize, P),
-        write: impl FnMut(usize, P),
-    );
+    /// Computes the results with the scalar `P`. `each` makes one `P` of a number for each branch, and `write` takes the
+    /// result with the given index.
+    fn compute<P: Scalar>(read: &[S; M], each: impl Fn([S; N]) -> P, write: impl FnMut(usize, P));
 }
 
 /// The most branches that are computed by one [`SideBySide`].
@@ -38,14 +33,13 @@ impl<S: Scalar, B: Branches<S, M, N, K>, const M: usize, const N: usize, const K
         SideBySide { results: [[S::zero(); K]; N], branches: PhantomData }
     }
 
-    /// Computes the results of this branch, and calls `known` with every one of them once it is known. Scalars that compute all
-    /// [at once](Scalar::AT_ONCE) compute those of all branches with the first one, and do not call `known`.
+    /// Computes the results of this branch, or, with the first one, those of all where they are computed
+    /// [at once](Scalar::AT_ONCE).
     #[inline(always)]
-    pub fn compute(&mut self, branch: usize, read: &[S; M], known: impl FnMut(usize, S)) {
+    pub fn compute(&mut self, branch: usize, read: &[S; M]) {
         S::compute_branch::<B, M, N, K>(
             branch,
             read,
-            known,
             #[inline(always)]
             |branch, column, value| self.results[branch][column] = value,
         );
@@ -63,8 +57,6 @@ impl<S: Scalar, B: Branches<S, M, N, K>, const M: usize, const N: usize, const K
                     S::compute_branch::<B, M, N, K>(
                         $branch,
                         read,
-                        #[inline(always)]
-                        |_, _| {},
                         #[inline(always)]
                         |branch, column, value| results[branch][column] = value,
                     );
@@ -103,8 +95,6 @@ macro_rules! in_lanes {
                 }
                 $crate::lanes::$lanes::from(numbers)
             },
-            #[inline(always)]
-            |_, _| {},
             #[inline(always)]
             |column, value: $crate::lanes::$lanes| {
                 let numbers = value.to_array();

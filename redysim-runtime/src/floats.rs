@@ -62,7 +62,6 @@ macro_rules! real {
             fn compute_branch<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
                 branch: usize,
                 read: &[Self; M],
-                _: impl FnMut(usize, Self),
                 mut write: impl FnMut(usize, usize, Self),
             ) {
                 const { assert!(N >= 2) };

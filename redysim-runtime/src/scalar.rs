@@ -93,22 +93,19 @@ pub trait Scalar:
     #[doc(hidden)]
     const AT_ONCE: bool = false;
 
-    /// Computes one of the [`Branches`] `B`, and calls `known` with the index and the value of every result once it is known,
-    /// `write` with the branch, the index and the value at the end. Numbers compute all branches with the first one, in the
-    /// lanes of a vector, and call `write` alone.
+    /// Computes one of the [`Branches`] `B`, and calls `write` with the branch, the index and the value of every result. Numbers
+    /// compute all branches with the first one, in the lanes of a vector.
     #[doc(hidden)]
     #[inline(always)]
     fn compute_branch<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
         branch: usize,
         read: &[Self; M],
-        known: impl FnMut(usize, Self),
         mut write: impl FnMut(usize, usize, Self),
     ) {
         B::compute(
             read,
             #[inline(always)]
             |x| x[branch],
-            known,
             #[inline(always)]
             |column, value| write(branch, column, value),
         );

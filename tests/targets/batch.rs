@@ -5,7 +5,7 @@ use crate::robots_in_space::Parcel;
 use redysim::batch::{self, Batched};
 use redysim::{
     BiasForces, ConfigurationSpace, Dispatch, Dispatched, ForwardDynamics, GravityForces, InverseDynamics,
-    LengthMismatch, MassMatrix, Real, Scalar, TreeDynamics,
+    LengthMismatch, MassMatrix, Real, Scalar, TreeDynamics, redysim,
 };
 
 /// No state, one, about as many as lanes, enough that a last task and a last group are not full.
@@ -116,6 +116,37 @@ macro_rules! each_state_in_space_is_as_if_alone {
 fn states_with_more_coordinates_than_velocities_give_the_bits_of_each_alone() {
     each_state_in_space_is_as_if_alone!(Parcel, f64);
     each_state_in_space_is_as_if_alone!(Parcel, f32);
+}
+
+/// In lanes the sines of a leg are computed before the leg, and each element is written as soon as it is known; alone a state has
+/// all at once.
+#[test]
+fn mass_matrices_of_a_robot_with_four_legs_have_the_bits_of_each_alone() {
+    redysim! { struct Quadruped("models/quadruped.toml", functions = [mass_matrix]); }
+    fn check<T: Batched>()
+    where
+        Dispatched<Quadruped>:
+            MassMatrix<T, Coordinates = [T; Quadruped::NQ], Matrix = [[T; Quadruped::NV]; Quadruped::NV]>,
+    {
+        let q: Vec<[T; Quadruped::NQ]> = numbers(1, 19);
+        let mut matrices = vec![[[T::default(); Quadruped::NV]; Quadruped::NV]; q.len()];
+        batch::mass_matrix(&Quadruped, &q, &mut matrices).unwrap();
+        for (matrix, q) in matrices.iter().zip(&q) {
+            assert_eq!(bits(matrix), bits(&Quadruped.dispatched().mass_matrix(q)));
+            let of_legs = |row: usize, column: usize| row > 5 && column > 5 && (row - 6) / 3 != (column - 6) / 3;
+            for (row, column) in
+                (0..Quadruped::NV * Quadruped::NV).map(|place| (place / Quadruped::NV, place % Quadruped::NV))
+            {
+                assert_eq!(matrix[row][column].to_f64().to_bits(), matrix[column][row].to_f64().to_bits(), "symmetric");
+                assert!(
+                    !of_legs(row, column) || matrix[row][column].to_f64() == 0.0,
+                    "two legs move each other's bodies"
+                );
+            }
+        }
+    }
+    check::<f64>();
+    check::<f32>();
 }
 
 /// Their code takes long to compile: `.ci/run` alone has them, for any processor with the feature `deterministic`.

@@ -25,8 +25,7 @@ pub const SINES: &str = "sines";
 pub const MATRIX: &str = "matrix";
 
 /// Names that variables must not have, beside those of arguments.
-pub const RESERVED: [&str; 14] =
-    [GIVEN, FROM_F64, SIN, COS, GROUP, ROW, SINES, MATRIX, "read", "each", "known", "write", "result", "value"];
+pub const RESERVED: [&str; 11] = [GIVEN, FROM_F64, SIN, COS, GROUP, ROW, SINES, MATRIX, "read", "each", "write"];
 
 /// The name of an argument or a local value.
 pub fn local(name: &str) -> Ident {
@@ -55,39 +54,31 @@ pub fn body(
     let expressions = sines.as_ref().map_or_else(HashMap::new, SinesWhenRead::expressions);
     let (printer, k, matrix) = (Printer { arguments, runtime, expressions }, local(FROM_F64), local(MATRIX));
     let outputs = printer.outputs(program);
-    let computed = sines.as_ref().map(|sines| sines.computed_at(Moment::default()));
-    let statements = (1..).zip(&program.statements).map(|(statements, statement)| match statement {
+    let computed_before = |moment| sines.as_ref().map(|sines| sines.computed_before(moment));
+    let written_after = |moment| writes.as_ref().map(|writes| writes.after(moment, &outputs));
+    let (computed, first) = (computed_before(Moment::default()), written_after(Moment::default()));
+    let statements = (1..).zip(&program.statements).map(|(number, statement)| match statement {
         Statement::Destructure { .. } if sines.is_some() => TokenStream::new(),
-        Statement::SideBySide(each) if writes.is_some() || sines.is_some() => {
+        Statement::SideBySide(each) if writes.is_some() => {
             let (name, (branches, read)) = (local(&each.name), printer.side_by_side(each, true));
             let computed = (0..each.branches).map(|branch| {
-                let moment = Moment { statements, branch, result: None };
-                let sines = sines.as_ref().map(|sines| sines.computed_at(moment));
-                let written = writes.as_ref().map(|writes| writes.after(statements, branch, &outputs));
-                let with_results = writes.as_ref().map_or_else(
-                    || {
-                        quote!(
-                            #[inline(always)]
-                            |_, _| {}
-                        )
-                    },
-                    |writes| writes.with_results(statements, branch, program),
-                );
+                let moment = Moment { statement: number, branch };
+                let (computed, written) = (computed_before(moment), written_after(moment));
                 let branch = Literal::usize_unsuffixed(branch);
-                quote!(#sines #name.compute(#branch, &#read, #with_results); #written)
+                quote!(#computed #name.compute(#branch, &#read); #written)
             });
             quote!(let mut #name = #branches; #(#computed)*)
         }
         _ => {
-            let written = writes.as_ref().map(|writes| writes.after(statements, 0, &outputs));
-            let code = printer.statement(statement);
+            let (code, written) =
+                (printer.statement(statement), written_after(Moment { statement: number, branch: 0 }));
             quote!(#code #written)
         }
     });
     let (begun, result) = match writes {
         Some(writes) => {
             let (order, count) = writes.order(runtime);
-            let (first, by_rows) = (writes.first(&outputs), Writes::by_rows(program, &outputs));
+            let by_rows = Writes::by_rows(program, &outputs);
             (
                 quote!(#order let mut #matrix = #matrix.elements::<Order, #count>(); #first),
                 quote!(#matrix.finish(#[inline(always)] |#matrix| { #by_rows })),
@@ -143,12 +134,7 @@ impl Printer<'_> {
     /// {
     ///     struct Branch;
     ///     impl<T: Scalar> Branches<T, 9, 4, 2> for Branch {
-    ///         fn compute<S: Scalar>(
-    ///             read: &[T; 9],
-    ///             each: impl Fn([T; 4]) -> S,
-    ///             _: impl FnMut(usize, S),
-    ///             mut write: impl FnMut(usize, S),
-    ///         ) {
+    ///         fn compute<S: Scalar>(read: &[T; 9], each: impl Fn([T; 4]) -> S, mut write: impl FnMut(usize, S)) {
     ///             let k = S::from_f64;
     ///             let v_hip = each([read[0], read[1], read[2], read[3]]);
     ///             let each1 = each([T::from_f64(0.1), …]);
@@ -189,24 +175,13 @@ impl Printer<'_> {
             })
             .collect();
         let [reads, branches, columns] = [read.len(), *branches, results.len()].map(Literal::usize_unsuffixed);
-        let call = |function: &str, column: usize| {
-            let (function, result) = (local(function), local(&results[column]));
-            let column = Literal::usize_unsuffixed(column);
-            quote!(#function(#column, #result);)
-        };
-        let code = body.iter().map(|statement| {
-            let code = self.statement(statement);
-            let column = match statement {
-                Statement::Let { name, .. } => results.iter().position(|result| result == name),
-                _ => None,
-            };
-            let known = column.filter(|_| one_by_one).map(|column| call("known", column));
-            quote!(#code #known)
+        let code = body.iter().map(|statement| self.statement(statement));
+        let results = results.iter().enumerate().map(|(column, result)| {
+            let (column, result) = (Literal::usize_unsuffixed(column), local(result));
+            quote!(write(#column, #result);)
         });
-        let written = (0..results.len()).map(|column| call("write", column));
-        let (k, runtime, known, read) = (local(FROM_F64), self.runtime, local("known"), quote!([#(#read),*]));
-        let known = if one_by_one { quote!(mut #known) } else { quote!(_) };
-        let begun = if one_by_one { quote!(begun()) } else { quote!(all(&#read)) };
+        let (k, runtime, read) = (local(FROM_F64), self.runtime, quote!([#(#read),*]));
+        let results_of_all = if one_by_one { quote!(begun()) } else { quote!(all(&#read)) };
         let branches = quote! {
             {
                 struct Branch;
@@ -215,16 +190,15 @@ impl Printer<'_> {
                     fn compute<S: #runtime::Scalar>(
                         read: &[T; #reads],
                         each: impl Fn([T; #branches]) -> S,
-                        #known: impl FnMut(usize, S),
                         mut write: impl FnMut(usize, S),
                     ) {
                         let #k = S::from_f64;
                         #(#inputs)*
                         #(#code)*
-                        #(#written)*
+                        #(#results)*
                     }
                 }
-                #runtime::SideBySide::<S, Branch, #reads, #branches, #columns>::#begun
+                #runtime::SideBySide::<S, Branch, #reads, #branches, #columns>::#results_of_all
             }
         };
         (branches, read)

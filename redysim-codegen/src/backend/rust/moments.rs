@@ -3,22 +3,13 @@
 use crate::program::{Loop, Program, Statement, Value};
 use std::collections::HashMap;
 
-/// A moment after a statement and, if that computes branches side by side, after a result of a branch.
+/// A moment of a program: before or after a statement, or a branch of one that computes branches side by side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Moment {
-    /// How many statements come before it.
-    pub statements: usize,
-    /// The branch of the last of them.
+    /// The number of the statement, from 1 on; 0 is before all of them.
+    pub statement: usize,
+    /// The branch.
     pub branch: usize,
-    /// The result of the branch; `None` before the first one.
-    pub result: Option<usize>,
-}
-
-impl Moment {
-    /// After all results of a branch.
-    pub fn after(statements: usize, branch: usize) -> Moment {
-        Moment { statements, branch, result: Some(usize::MAX) }
-    }
 }
 
 /// When the variables and arrays of a program are known.
@@ -28,8 +19,8 @@ impl<'p> Known<'p> {
     /// Those of this program.
     pub fn in_program(program: &'p Program) -> Self {
         let mut known = HashMap::new();
-        for (statements, statement) in (1..).zip(&program.statements) {
-            let mut define = |name: &'p String| _ = known.insert(name.as_str(), statements);
+        for (number, statement) in (1..).zip(&program.statements) {
+            let mut define = |name: &'p String| _ = known.insert(name.as_str(), number);
             match statement {
                 Statement::Destructure { names, .. } => names.iter().flatten().for_each(define),
                 Statement::Let { name, .. } => define(name),
@@ -44,22 +35,15 @@ impl<'p> Known<'p> {
         Known(known)
     }
 
-    /// When a value is known: that of a branch, or its negative, with the result of the branch; another one after the
-    /// statement or the branch that gives the last of what it is computed from.
-    pub fn value(&self, value: &Value) -> Moment {
+    /// After what a value is known, and the last result of a branch that it is computed from.
+    pub fn value(&self, value: &Value) -> (Moment, usize) {
+        let statement = |name: &String| self.0.get(name.as_str()).copied().unwrap_or_default();
         match value {
-            Value::OfBranch { column, .. } => Moment { result: Some(*column), ..self.last(value) },
-            Value::Negative(a) => self.value(a),
-            _ => self.last(value),
-        }
-    }
-
-    fn last(&self, value: &Value) -> Moment {
-        let statements = |name: &String| self.0.get(name.as_str()).copied().unwrap_or_default();
-        match value {
-            Value::Variable(name) | Value::LiveOut(name, ..) => Moment::after(statements(name), 0),
-            Value::OfBranch { array, branch, .. } => Moment::after(statements(array), *branch),
-            _ => value.operands().into_iter().flatten().map(|operand| self.last(operand)).max().unwrap_or_default(),
+            Value::Variable(name) | Value::LiveOut(name, ..) => (Moment { statement: statement(name), branch: 0 }, 0),
+            Value::OfBranch { array, branch, column, .. } => {
+                (Moment { statement: statement(array), branch: *branch }, *column)
+            }
+            _ => value.operands().into_iter().flatten().map(|operand| self.value(operand)).max().unwrap_or_default(),
         }
     }
 }

@@ -34,10 +34,10 @@ impl SinesWhenRead {
             }
         }
         let mut known = vec![false; trig.angles.len()];
-        for (statements, statement) in (1..).zip(&program.statements) {
+        for (number, statement) in (1..).zip(&program.statements) {
             if let Statement::SideBySide(SideBySide { branches, inputs, .. }) = statement {
                 for branch in 0..*branches {
-                    let moment = Moment { statements, branch, result: None };
+                    let moment = Moment { statement: number, branch };
                     let values = inputs.iter().map(|input| &input.branches[branch]);
                     values.for_each(|value| value.variables(&mut |name| sines.read(name, moment, &mut known)));
                 }
@@ -45,7 +45,7 @@ impl SinesWhenRead {
                 statement.reads(&mut |name| sines.read(name, Moment::default(), &mut known));
             }
         }
-        let read_by_branches = sines.before.keys().any(|moment| moment.statements > 0);
+        let read_by_branches = sines.before.keys().any(|moment| moment.statement > 0);
         let others = (0..known.len()).filter(|&angle| !known[angle]);
         sines.before.entry(Moment::default()).or_default().extend(others);
         read_by_branches.then_some(sines)
@@ -59,8 +59,8 @@ impl SinesWhenRead {
         }
     }
 
-    /// The code that computes those that are computed at this moment.
-    pub fn computed_at(&self, moment: Moment) -> TokenStream {
+    /// The code that computes those that are computed before this moment.
+    pub fn computed_before(&self, moment: Moment) -> TokenStream {
         let (sines, angles) = (local(SINES), self.before.get(&moment).map_or(&[][..], Vec::as_slice));
         let calls = angles.chunks(AT_ONCE).map(|angles| {
             let angles = angles.iter().copied().map(Literal::usize_unsuffixed);
@@ -125,10 +125,8 @@ mod tests {
     fn the_sines_of_a_branch_are_computed_before_it_and_all_others_first() {
         let (trig, program) = function();
         let sines = SinesWhenRead::of(&trig, &program).expect("legs read sines");
-        let computed = |statements, branch| {
-            let moment = Moment { statements, branch, result: None };
-            sines.computed_at(moment).to_string().replace(' ', "")
-        };
+        let computed =
+            |statement, branch| sines.computed_before(Moment { statement, branch }).to_string().replace(' ', "");
         assert_eq!(computed(0, 0), "sines.compute([0,3]);");
         assert_eq!(computed(3, 0), "sines.compute([2]);");
         assert_eq!(computed(3, 1), "sines.compute([1]);");

@@ -3,7 +3,7 @@
 
 use super::body::{MATRIX, local};
 use super::moments::{Known, Moment};
-use crate::program::{Program, Value};
+use crate::program::Program;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use redysim_runtime::function::Shape;
@@ -51,7 +51,7 @@ impl Writes {
         let mut writes = Writes { runs: Vec::new(), at: BTreeMap::new() };
         let mut zeros_written = 0;
         for (written, (place, output)) in (1..).zip(&outputs) {
-            let moment = known.value(output);
+            let (moment, _) = known.value(output);
             writes.push(moment, [*place, 1], Write::Output(*place));
             while let Some(run) = zeros.next_if(|_| zeros_written * outputs.len() < written * places.len()) {
                 zeros_written += run[1];
@@ -67,39 +67,17 @@ impl Writes {
         self.at.entry(moment).or_default().push(write);
     }
 
-    /// The code that writes what is known after a statement, or after a branch of it, where the outputs have this code.
-    pub fn after(&self, statements: usize, branch: usize, outputs: &[TokenStream]) -> TokenStream {
-        let writes = self.at.get(&Moment::after(statements, branch)).map_or(&[][..], Vec::as_slice);
-        code(writes, |output| outputs[output].clone())
-    }
-
-    /// The code that writes what is known before the first statement.
-    pub fn first(&self, outputs: &[TokenStream]) -> TokenStream {
-        code(self.at.get(&Moment::default()).map_or(&[][..], Vec::as_slice), |output| outputs[output].clone())
-    }
-
-    /// The closure that writes what is known with each result of a branch.
-    pub fn with_results(&self, statements: usize, branch: usize, program: &Program) -> TokenStream {
-        let first = Moment { statements, branch, result: Some(0) };
-        let arms: Vec<TokenStream> = self
-            .at
-            .range(first..Moment::after(statements, branch))
-            .map(|(moment, writes)| {
-                let result = moment.result.map(Literal::usize_unsuffixed);
-                let code = code(writes, |output| match program.outputs[output] {
-                    Value::Negative(_) => quote!(-value),
-                    _ => quote!(value),
-                });
-                quote!(#result => { #code })
-            })
-            .collect();
-        if arms.is_empty() {
-            return quote!(
-                #[inline(always)]
-                |_, _| {}
-            );
-        }
-        quote!(#[inline(always)] |result, value| match result { #(#arms)* _ => {} })
+    /// The code that writes what is known after this moment, where the outputs have this code.
+    pub fn after(&self, moment: Moment, outputs: &[TokenStream]) -> TokenStream {
+        let matrix = local(MATRIX);
+        let code = self.at.get(&moment).into_iter().flatten().map(|write| match *write {
+            Write::Output(number) => {
+                let value = &outputs[number];
+                quote!(#matrix.write(#value);)
+            }
+            Write::Zeros => quote!(#matrix.zeros();),
+        });
+        quote!(#(#code)*)
     }
 
     /// The code that writes all elements row by row.
@@ -132,23 +110,10 @@ impl Writes {
     }
 }
 
-/// Code that writes, where `output` is that of an output.
-fn code(writes: &[Write], output: impl Fn(usize) -> TokenStream) -> TokenStream {
-    let matrix = local(MATRIX);
-    let code = writes.iter().map(|write| match *write {
-        Write::Output(number) => {
-            let value = output(number);
-            quote!(#matrix.write(#value);)
-        }
-        Write::Zeros => quote!(#matrix.zeros();),
-    });
-    quote!(#(#code)*)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::program::{Input, SideBySide, Statement};
+    use crate::program::{Input, SideBySide, Statement, Value};
 
     fn constant(value: f64) -> Value {
         Value::Constant(value)
@@ -209,16 +174,11 @@ mod tests {
             .map(|code| code.parse().expect("code"))
             .into();
         assert_eq!(writes.runs, [[7, 1], [1, 2], [4, 1], [5, 1], [6, 1], [3, 1], [8, 1], [0, 1]]);
-        assert_eq!(text(writes.first(&code)), "matrix.write(k(3));matrix.zeros();");
-        let with_results = |branch| text(writes.with_results(1, branch, &program));
-        assert_eq!(with_results(0), "#[inline(always)]|result,value|matchresult{0=>{matrix.write(value);}_=>{}}");
-        assert_eq!(text(writes.after(1, 0, &code)), "matrix.write(a0+b0);matrix.zeros();");
-        assert_eq!(
-            with_results(1),
-            "#[inline(always)]|result,value|matchresult{1=>{matrix.write(-value);matrix.zeros();}_=>{}}"
-        );
-        assert_eq!(text(writes.after(1, 1, &code)), "");
-        assert_eq!(text(writes.after(2, 0, &code)), "matrix.write(sum);");
+        let after = |statement, branch| text(writes.after(Moment { statement, branch }, &code));
+        assert_eq!(after(0, 0), "matrix.write(k(3));matrix.zeros();");
+        assert_eq!(after(1, 0), "matrix.write(a0);matrix.write(a0+b0);matrix.zeros();");
+        assert_eq!(after(1, 1), "matrix.write(-b1);matrix.zeros();");
+        assert_eq!(after(2, 0), "matrix.write(sum);");
         assert_eq!(
             text(Writes::by_rows(&program, &code)),
             "matrix.push(sum);matrix.zeros(2);matrix.push(-b1);matrix.push(a0);matrix.push(a0+b0);matrix.zeros(1);\
