@@ -13,24 +13,41 @@ const LARGEST: f64 = 7.0;
 #[inline(always)]
 pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
     // A branch for every four angles, which nearly always are small: with one for all of them the comparisons of eight
-    // angles would be joined into vectors of 512 bits. Four that are written out, since in a loop lanes go through memory.
+    // angles would be joined into vectors of 512 bits.
     let (fours, others) = angles.as_chunks_mut::<4>();
     for four in fours {
-        let [a, b, c, d] = *four;
-        // In this order a margin that is NaN does not replace the others.
-        let least = margin(b).lesser(margin(a).lesser(A::zero()));
-        if !A::zero().all_at_most(margin(d).lesser(margin(c).lesser(least))) {
-            for angle in four {
-                (*angle, _) = angle.one_by_one(without_turns_of_one);
-            }
+        if !are_small(four) {
+            one_by_one(four);
         }
     }
-    for angle in others {
-        if !is_small(*angle) {
-            (*angle, _) = angle.one_by_one(without_turns_of_one);
-        }
+    if !are_small(others) {
+        one_by_one(others);
     }
     angles
+}
+
+/// Whether at most four angles have no whole turns to take away in any lane.
+#[inline(always)]
+fn are_small<A: Angle>(angles: &[A]) -> bool {
+    let mut least = A::zero();
+    // Written out, since in a loop lanes go through memory.
+    macro_rules! written_out {
+        ($($index:literal)*) => {$(
+            if let Some(angle) = angles.get($index) {
+                // In this order a margin that is NaN does not replace the others.
+                least = margin(*angle).lesser(least);
+            }
+        )*};
+    }
+    written_out!(0 1 2 3);
+    A::zero().all_at_most(least)
+}
+
+#[inline(always)]
+fn one_by_one<A: Angle>(angles: &mut [A]) {
+    for angle in angles {
+        (*angle, _) = angle.one_by_one(without_turns_of_one);
+    }
 }
 
 /// What the square of the angle leaves of the largest one without turns to take away: negative in lanes with such turns.
@@ -39,15 +56,9 @@ fn margin<A: Angle>(angle: A) -> A {
     (-angle).mul_add(angle, A::from_f64(LARGEST * LARGEST))
 }
 
-/// Whether the angle in every lane has no whole turns to take away.
-#[inline(always)]
-fn is_small<A: Angle>(angle: A) -> bool {
-    A::zero().all_at_most(margin(angle))
-}
-
 /// One angle, and nothing of interest.
 fn without_turns_of_one<A: Number>(angle: A) -> (A, A) {
-    if is_small(angle) {
+    if are_small(&[angle]) {
         return (angle, angle);
     }
     let Reduced { rounded, rest, tail } = angle.reduced();
