@@ -1,5 +1,6 @@
 //! Languages that a mechanism is written in.
 
+mod binding;
 #[cfg(feature = "source")]
 pub mod c;
 #[cfg(feature = "source")]

@@ -2,6 +2,7 @@
 
 use super::comment::statement;
 use super::scalar::Numbers;
+use crate::backend::binding::Binding;
 use crate::program::{Carried, Index, Input, LiveOutArray, Loop, LoopRead, SideBySide, Statement, Trig, Value};
 
 /// The names of the arrays of the sines and the cosines of all angles.
@@ -55,15 +56,6 @@ pub struct Printer<'a> {
     pub numbers: Numbers,
     /// The names of the arrays of the function's arguments.
     pub arguments: &'a [&'a str],
-}
-
-/// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
-#[derive(Clone, Copy, PartialEq, PartialOrd)]
-pub enum Binding {
-    Lowest,
-    Sum,
-    Product,
-    Unary,
 }
 
 impl Printer<'_> {
@@ -241,7 +233,7 @@ impl Printer<'_> {
                 (Binding::Product, format!("{} / {}", operand(a, Binding::Sum), operand(b, Binding::Product)))
             }
         };
-        if own <= binding && binding != Binding::Lowest { format!("({text})") } else { text }
+        if own.needs_parentheses(binding) { format!("({text})") } else { text }
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::moments::Moment;
 use super::sines::SinesWhenRead;
-use super::values::{Binding, FROM_F64, Printer, constant, trig};
+use super::values::{FROM_F64, Printer, constant, trig};
 use super::writes::Writes;
+use crate::backend::binding::Binding;
 use crate::program::{Carried, LiveOutArray, Loop, LoopRead, Program, SideBySide, Statement, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;

@@ -1,6 +1,7 @@
 //! Values as Rust expressions.
 
 use super::body::{COS, GIVEN, GROUP, ROW, SIN, local};
+use crate::backend::binding::Binding;
 use crate::program::{Index, Trig, Value};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -27,15 +28,6 @@ pub struct Printer<'a> {
     pub runtime: &'a TokenStream,
     /// Variables that are printed as these expressions.
     pub expressions: HashMap<String, TokenStream>,
-}
-
-/// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
-#[derive(Clone, Copy, PartialEq, PartialOrd)]
-pub enum Binding {
-    Lowest,
-    Sum,
-    Product,
-    Unary,
 }
 
 impl Printer<'_> {
@@ -108,7 +100,7 @@ impl Printer<'_> {
                 (Binding::Product, quote!(#a / #b))
             }
         };
-        if own <= binding && binding != Binding::Lowest { quote!((#tokens)) } else { tokens }
+        if own.needs_parentheses(binding) { quote!((#tokens)) } else { tokens }
     }
 }
 
