@@ -149,7 +149,7 @@ pub use scalar::{FUSED, Real, Scalar};
 #[cfg(feature = "simulation")]
 pub use simulate::{ForwardSimulation, SimulationState};
 #[doc(hidden)]
-pub use sines::{Sines, sines_at_once};
+pub use sines::{MOST_SINES, Sines, sines_at_once};
 #[cfg(feature = "simulation")]
 pub use trajectory::{
     ConstantDirection, Cycloid, ManifoldSpline, Motion, SetPoint, TangentTrajectory, Trajectory, TrajectoryError,

@@ -3,7 +3,8 @@
 use crate::scalar::Scalar;
 
 /// The most angles that are computed by one call of [`Sines::compute`].
-const MOST: usize = 16;
+#[doc(hidden)]
+pub const MOST_SINES: usize = 16;
 
 /// Sines and cosines of `N` angles: given ones, or those that a function computes when it is about to read them.
 ///
@@ -26,16 +27,14 @@ pub fn sines_at_once<S: Scalar, const N: usize>(angles: &[S; N]) -> ([S; N], [S;
 }
 
 impl<S: Scalar, const N: usize> Sines<'_, S, N> {
-    /// Computes those of the angles with these numbers, 16 at most, unless they are known.
+    /// Computes those of the angles with these numbers, [`MOST_SINES`] at most, unless they are known.
     #[inline(always)]
     pub fn compute<const K: usize>(&mut self, numbers: [usize; K]) {
-        let Some(angles) = self.angles.filter(
-            #[inline(always)]
-            |_| !S::AT_ONCE,
-        ) else {
+        let Some(angles) = self.angles else { return };
+        if S::AT_ONCE {
             return;
-        };
-        const { assert!(K <= MOST) };
+        }
+        const { assert!(K <= MOST_SINES) };
         let mut computed = [S::zero(); K];
         // Written out, since in a loop the numbers of lanes go through memory.
         macro_rules! written_out {

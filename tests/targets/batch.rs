@@ -118,8 +118,7 @@ fn states_with_more_coordinates_than_velocities_give_the_bits_of_each_alone() {
     each_state_in_space_is_as_if_alone!(Parcel, f32);
 }
 
-/// In lanes the sines of a leg are computed before the leg, and each element is written as soon as it is known; alone a state has
-/// all at once.
+/// In lanes the sines of a leg are computed before the leg and its elements are written after it; alone a state has all at once.
 #[test]
 fn mass_matrices_of_a_robot_with_four_legs_have_the_bits_of_each_alone() {
     redysim! { struct Quadruped("models/quadruped.toml", functions = [mass_matrix]); }

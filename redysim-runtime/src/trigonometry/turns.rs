@@ -17,11 +17,11 @@ pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
     let (fours, others) = angles.as_chunks_mut::<4>();
     for four in fours {
         if !are_small(four) {
-            one_by_one(four);
+            take_turns_off(four);
         }
     }
     if !are_small(others) {
-        one_by_one(others);
+        take_turns_off(others);
     }
     angles
 }
@@ -44,7 +44,7 @@ fn are_small<A: Angle>(angles: &[A]) -> bool {
 }
 
 #[inline(always)]
-fn one_by_one<A: Angle>(angles: &mut [A]) {
+fn take_turns_off<A: Angle>(angles: &mut [A]) {
     for angle in angles {
         (*angle, _) = angle.one_by_one(without_turns_of_one);
     }

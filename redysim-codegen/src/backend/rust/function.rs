@@ -65,7 +65,8 @@ impl Writer<'_> {
         if program.trig.angles.is_empty() {
             return body;
         }
-        let (computed, sines, cosines) = trig::of_function(&program.trig, &program.program);
+        let in_order = trig::in_order_of_reading(&program.trig, &program.program);
+        let (computed, sines, cosines) = trig::of_function(&in_order);
         let [sin, cos] = [SIN, COS].map(local);
         quote!(#computed let (#sin, #cos) = (#sines, #cosines); #body)
     }
@@ -73,12 +74,12 @@ impl Writer<'_> {
     /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and
     /// cosines is a third function, inlined into both, so that sines and cosines do not go through memory.
     pub fn function(&self, program: &FunctionProgram) -> TokenStream {
-        let angles_in_order = trig::in_order_of_reading(&program.trig, &program.program);
+        let trig_in_order = trig::in_order_of_reading(&program.trig, &program.program);
         let writes = Writes::of(program.function.signature().result, &program.program);
-        let sines = writes.as_ref().and_then(|_| SinesWhenRead::of(&angles_in_order, &program.program));
+        let sines = writes.as_ref().and_then(|_| SinesWhenRead::of(&trig_in_order, &program.program));
         let schedule = Schedule { writes, sines };
         let (reads, body) = (Form::of(self.interface, self.runtime).reads, self.body(program, &schedule));
-        let FunctionProgram { function, ref documentation, trig: ref angles_read, .. } = *program;
+        let FunctionProgram { function, ref documentation, .. } = *program;
         let (Writer { interface, runtime, .. }, angles) = (*self, self.angles());
         let (head, head_with_trig) =
             (head(function, interface, runtime), head_with_trig(function, interface, &angles, runtime));
@@ -102,11 +103,11 @@ impl Writer<'_> {
         };
         let ((computed, sines), (read, given)) = match &schedule.sines {
             None => {
-                let (computed, sin, cos) = trig::of_function(angles_read, &program.program);
+                let (computed, sin, cos) = trig::of_function(&trig_in_order);
                 let given = quote!(&#argument.sin, &#argument.cos);
                 ((computed.unwrap_or_default(), quote!(#sin, #cos)), (TokenStream::new(), given))
             }
-            Some(_) => (trig::when_read(&angles_in_order, runtime), trig::given(&angles_in_order, &argument, runtime)),
+            Some(_) => (trig::when_read(&trig_in_order, runtime), trig::given(&trig_in_order, &argument, runtime)),
         };
         let of_coordinates = whole(&computed, &sines, &quote!(#q));
         let of_joint_trig = whole(&read, &given, &quote!(&#argument.#q));

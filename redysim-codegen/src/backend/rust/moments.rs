@@ -4,7 +4,7 @@ use crate::program::{Loop, Program, Statement, Value};
 use std::collections::HashMap;
 
 /// A moment of a program: before or after a statement, or a branch of one that computes branches side by side.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Moment {
     /// The number of the statement, from 1 on; 0 is before all of them.
     pub statement: usize,

@@ -3,14 +3,13 @@
 
 use super::body::{SINES, local};
 use super::moments::Moment;
+use super::values::trig;
 use crate::mechanism::TrigProgram;
 use crate::program::{Program, SideBySide, Statement, Trig};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
-use std::collections::{BTreeMap, HashMap};
-
-/// The most angles whose sines are computed at once.
-const AT_ONCE: usize = 16;
+use redysim_runtime::MOST_SINES;
+use std::collections::HashMap;
 
 /// When a function computes the sines and cosines of which angles. Angles have the numbers of the function's.
 #[derive(Debug, PartialEq)]
@@ -18,7 +17,7 @@ pub struct SinesWhenRead {
     /// How many angles there are.
     pub angles: usize,
     /// Those that are computed before a branch, or before the first statement.
-    before: BTreeMap<Moment, Vec<usize>>,
+    before: HashMap<Moment, Vec<usize>>,
     /// The place of each variable that is a sine or a cosine among those of the function.
     places: HashMap<String, (Trig, usize)>,
 }
@@ -26,7 +25,7 @@ pub struct SinesWhenRead {
 impl SinesWhenRead {
     /// The moments of a function that needs the angles of `trig`; `None` if it reads no sine first in a branch.
     pub fn of(trig: &TrigProgram, program: &Program) -> Option<SinesWhenRead> {
-        let mut sines = SinesWhenRead { angles: trig.angles.len(), before: BTreeMap::new(), places: HashMap::new() };
+        let mut sines = SinesWhenRead { angles: trig.angles.len(), before: HashMap::new(), places: HashMap::new() };
         for statement in &program.statements {
             if let Statement::Destructure { array, names } = statement {
                 let named = names.iter().zip(&trig.places).filter_map(|(name, place)| Some((name.clone()?, (*place)?)));
@@ -62,7 +61,7 @@ impl SinesWhenRead {
     /// The code that computes those that are computed before this moment.
     pub fn computed_before(&self, moment: Moment) -> TokenStream {
         let (sines, angles) = (local(SINES), self.before.get(&moment).map_or(&[][..], Vec::as_slice));
-        let calls = angles.chunks(AT_ONCE).map(|angles| {
+        let calls = angles.chunks(MOST_SINES).map(|angles| {
             let angles = angles.iter().copied().map(Literal::usize_unsuffixed);
             quote!(#sines.compute([#(#angles),*]);)
         });
@@ -73,7 +72,7 @@ impl SinesWhenRead {
     pub fn expressions(&self) -> HashMap<String, TokenStream> {
         let expression = |(name, &(array, place)): (&String, &(Trig, usize))| {
             let (sines, place) = (local(SINES), Literal::usize_unsuffixed(place));
-            let field = super::values::trig(array);
+            let field = trig(array);
             (name.clone(), quote!(#sines.#field[#place]))
         };
         self.places.iter().map(expression).collect()

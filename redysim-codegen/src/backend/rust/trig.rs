@@ -17,11 +17,10 @@ pub fn sines_and_cosines(trig: &TrigProgram) -> TokenStream {
     quote!(#turns_taken_off let (sin, cos) = S::sin_cos_all([#(#angles),*]);)
 }
 
-/// The statements that compute the sines and cosines that `program` reads, and expressions for the arrays of those of all angles,
-/// with zeros for the others.
-pub fn of_function(trig: &TrigProgram, program: &Program) -> (Option<TokenStream>, TokenStream, TokenStream) {
-    let trig = in_order_of_reading(trig, program);
-    let computed = (!trig.angles.is_empty()).then(|| sines_and_cosines(&trig));
+/// The statements that compute the sines and cosines that a function reads, in the order of `trig`, and expressions for the arrays
+/// of those of all angles, with zeros for the others.
+pub fn of_function(trig: &TrigProgram) -> (Option<TokenStream>, TokenStream, TokenStream) {
+    let computed = (!trig.angles.is_empty()).then(|| sines_and_cosines(trig));
     if trig.is_complete() && !trig.angles.is_empty() {
         return (computed, quote!(&sin), quote!(&cos));
     }
@@ -134,7 +133,7 @@ mod tests {
     }
 
     fn code(trig: &TrigProgram, program: &Program) -> [String; 2] {
-        let (computed, sines, _) = of_function(trig, program);
+        let (computed, sines, _) = of_function(&in_order_of_reading(trig, program));
         [computed.unwrap_or_default(), sines].map(|tokens| tokens.to_string().replace(' ', ""))
     }
 

@@ -7,7 +7,7 @@ use crate::program::Program;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use redysim_runtime::function::Shape;
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 
 /// From this number of elements on, a matrix of which at least a third are zero is written element by element where the function
 /// returns it. LLVM composes an array literal of that size elsewhere and copies it, which in lanes takes more time than to
@@ -18,7 +18,7 @@ const LARGE_MATRIX: usize = 256;
 pub struct Writes {
     /// The first place of each run of elements that are the same number, and how many they are, as they are written.
     runs: Vec<[usize; 2]>,
-    at: BTreeMap<Moment, Vec<Write>>,
+    at: HashMap<Moment, Vec<Write>>,
 }
 
 /// What is written into a run.
@@ -44,15 +44,15 @@ impl Writes {
     fn as_known(program: &Program) -> Writes {
         let known = Known::in_program(program);
         let numbered = || program.outputs.iter().enumerate();
-        let mut outputs: Vec<_> = numbered().filter(|(_, output)| !output.is_zero()).collect();
-        outputs.sort_by_cached_key(|(_, output)| known.value(output));
+        let nonzero = numbered().filter(|(_, output)| !output.is_zero());
+        let mut outputs: Vec<_> = nonzero.map(|(place, output)| (known.value(output), place)).collect();
+        outputs.sort_unstable();
         let places: Vec<usize> = numbered().filter(|(_, output)| output.is_zero()).map(|(place, _)| place).collect();
         let mut zeros = places.chunk_by(|place, next| place + 1 == *next).map(|run| [run[0], run.len()]).peekable();
-        let mut writes = Writes { runs: Vec::new(), at: BTreeMap::new() };
+        let mut writes = Writes { runs: Vec::new(), at: HashMap::new() };
         let mut zeros_written = 0;
-        for (written, (place, output)) in (1..).zip(&outputs) {
-            let (moment, _) = known.value(output);
-            writes.push(moment, [*place, 1], Write::Output(*place));
+        for (written, ((moment, _), place)) in (1..).zip(outputs.iter().copied()) {
+            writes.push(moment, [place, 1], Write::Output(place));
             while let Some(run) = zeros.next_if(|_| zeros_written * outputs.len() < written * places.len()) {
                 zeros_written += run[1];
                 writes.push(moment, run, Write::Zeros);
