@@ -29,17 +29,18 @@ pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
 /// Whether at most four angles have no whole turns to take away in any lane.
 #[inline(always)]
 fn are_small<A: Angle>(angles: &[A]) -> bool {
-    let mut least = A::zero();
+    let [first, others @ ..] = angles else { return true };
+    let mut least = margin(*first);
     // Written out, since in a loop lanes go through memory.
     macro_rules! written_out {
         ($($index:literal)*) => {$(
-            if let Some(angle) = angles.get($index) {
-                // In this order a margin that is NaN does not replace the others.
+            if let Some(angle) = others.get($index) {
+                // In this order a margin that is NaN does not replace a number.
                 least = margin(*angle).lesser(least);
             }
         )*};
     }
-    written_out!(0 1 2 3);
+    written_out!(0 1 2);
     A::zero().all_at_most(least)
 }
 
