@@ -16,7 +16,7 @@ pub trait Branches<S, const M: usize, const N: usize, const K: usize> {
 }
 
 /// The most branches that are computed by one [`SideBySide`].
-pub(crate) const MOST: usize = 8;
+const MOST: usize = 8;
 
 /// The results of the branches `B`, a row for each.
 #[doc(hidden)]
@@ -33,8 +33,7 @@ impl<S: Scalar, B: Branches<S, M, N, K>, const M: usize, const N: usize, const K
         SideBySide { results: [[S::zero(); K]; N], branches: PhantomData }
     }
 
-    /// Computes the results of this branch, or, with the first one, those of all where they are computed
-    /// [at once](Scalar::AT_ONCE).
+    /// Computes the results of this branch; numbers that are computed in lanes have those of all branches with the first one.
     #[inline(always)]
     pub fn compute(&mut self, branch: usize, read: &[S; M]) {
         Self::compute_into(&mut self.results, branch, read);

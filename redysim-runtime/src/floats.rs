@@ -64,7 +64,6 @@ macro_rules! real {
                 read: &[Self; M],
                 mut write: impl FnMut(usize, usize, Self),
             ) {
-                const { assert!(N >= 2) };
                 if branch > 0 {
                     return;
                 }

@@ -88,8 +88,8 @@ pub trait Scalar:
         Self::zero()
     }
 
-    /// Whether generated code computes all sines, all branches that are alike, and all elements of a large matrix at once: numbers
-    /// do, in vectors. Other scalars compute sines when they are read, and write an element as soon as it is known.
+    /// Whether a function that writes a large matrix computes all sines first and writes all elements last, row by row, as numbers
+    /// do. Other scalars compute the sines of a branch before the branch, and write an element as soon as it is known.
     #[doc(hidden)]
     const AT_ONCE: bool = false;
 

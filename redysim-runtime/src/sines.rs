@@ -8,7 +8,8 @@ pub const MOST_SINES: usize = 16;
 
 /// Sines and cosines of `N` angles: given ones, or those that a function computes when it is about to read them.
 ///
-/// It refers to its arrays, since the compiler may move numbers in wider vectors than those they are in.
+/// Holds references: arrays in the structure would be copied with it, in wider vectors than those that wrote them, and reading them
+/// would wait for the writes.
 #[doc(hidden)]
 pub struct Sines<'s, S, const N: usize> {
     /// The angles, if they are computed.

@@ -1,6 +1,6 @@
 //! Where an expression needs parentheses.
 
-/// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
+/// How tightly an expression binds. An operand gets parentheses unless it binds more tightly than what surrounds it.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 pub enum Binding {
     Lowest,
@@ -12,6 +12,6 @@ pub enum Binding {
 impl Binding {
     /// Whether an expression that binds like this needs parentheses in one that binds as `surrounding`.
     pub fn needs_parentheses(self, surrounding: Binding) -> bool {
-        self <= surrounding && surrounding != Binding::Lowest
+        self <= surrounding
     }
 }

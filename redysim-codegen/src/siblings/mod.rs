@@ -24,7 +24,7 @@ pub use packs::{Kind, Operand, Operation, Pack, Source};
 pub use schedule::{Packs, Part, SideBySide, code_size, may_pay};
 pub use sums::by_branches;
 
-/// The most branches that are computed side by side. Of more, these at a time.
+/// The most branches that are computed side by side. More are computed in groups of this size.
 const MOST_BRANCHES: usize = 8;
 
 /// Branches of a tree on one body, or on the ground, whose joints are the same.

@@ -38,7 +38,7 @@ pub struct Packs {
     pub packs: Vec<Pack>,
     /// For each pack, of which branches the value is the negative of the node's.
     pub negative: Vec<Vec<bool>>,
-    /// How often each pack is read by packs.
+    /// How often each pack is read by packs, and once more if it is read from outside.
     pub uses: Vec<usize>,
     levels: Vec<usize>,
 }
@@ -185,8 +185,8 @@ impl SideBySide {
         results
     }
 
-    /// Packs that are mostly read with a minus sign, one by one, have the negatives of their values: the operations that
-    /// compute and read them take the sign.
+    /// Packs that single operations and outputs mostly read with a minus sign have the negatives of their values: the operations
+    /// that compute and read them take the sign.
     fn negate_what_is_read_negative(&mut self, expressions: &Expressions) {
         let graph = &expressions.graph;
         // For each pack, reads with a minus sign less those without.

@@ -26,7 +26,7 @@ pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
     angles
 }
 
-/// Whether at most four angles have no whole turns to take away in any lane.
+/// Whether none of these angles, four at most, has whole turns to take off in any lane.
 #[inline(always)]
 fn are_small<A: Angle>(angles: &[A]) -> bool {
     let [first, others @ ..] = angles else { return true };
@@ -51,13 +51,13 @@ fn take_turns_off<A: Angle>(angles: &mut [A]) {
     }
 }
 
-/// What the square of the angle leaves of the largest one without turns to take away: negative in lanes with such turns.
+/// The square of [`LARGEST`] less that of the angle: negative in lanes with whole turns to take off.
 #[inline(always)]
 fn margin<A: Angle>(angle: A) -> A {
     (-angle).mul_add(angle, A::from_f64(LARGEST * LARGEST))
 }
 
-/// One angle, and nothing of interest.
+/// The angle without whole turns; the second number is not used.
 fn without_turns_of_one<A: Number>(angle: A) -> (A, A) {
     if are_small(&[angle]) {
         return (angle, angle);

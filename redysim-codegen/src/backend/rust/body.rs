@@ -59,7 +59,6 @@ pub fn body(
     let written_after = |moment| writes.as_ref().map(|writes| writes.after(moment, &outputs));
     let (computed, first) = (computed_before(Moment::default()), written_after(Moment::default()));
     let statements = (1..).zip(&program.statements).map(|(number, statement)| match statement {
-        Statement::Destructure { .. } if sines.is_some() => TokenStream::new(),
         Statement::SideBySide(each) if writes.is_some() => {
             let (name, (branches, read)) = (local(&each.name), printer.side_by_side(each, true));
             let computed = (0..each.branches).map(|branch| {
@@ -71,8 +70,9 @@ pub fn body(
             quote!(let mut #name = #branches; #(#computed)*)
         }
         _ => {
-            let (code, written) =
-                (printer.statement(statement), written_after(Moment { statement: number, branch: 0 }));
+            let is_replaced = matches!(statement, Statement::Destructure { .. }) && sines.is_some();
+            let code = (!is_replaced).then(|| printer.statement(statement));
+            let written = written_after(Moment { statement: number, branch: 0 });
             quote!(#code #written)
         }
     });

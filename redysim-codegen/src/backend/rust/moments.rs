@@ -35,7 +35,7 @@ impl<'p> Known<'p> {
         Known(known)
     }
 
-    /// After what a value is known, and the last result of a branch that it is computed from.
+    /// The moment after which a value is known, and the column of the last result of that branch that it is computed from.
     pub fn value(&self, value: &Value) -> (Moment, usize) {
         let statement = |name: &String| self.0.get(name.as_str()).copied().unwrap_or_default();
         match value {

@@ -11,7 +11,7 @@ use quote::quote;
 use redysim_runtime::MOST_SINES;
 use std::collections::HashMap;
 
-/// When a function computes the sines and cosines of which angles. Angles have the numbers of the function's.
+/// When a function computes the sine and the cosine of each angle. Angles are numbered as in the function's `TrigProgram`.
 #[derive(Debug, PartialEq)]
 pub struct SinesWhenRead {
     /// How many angles there are.
@@ -33,6 +33,10 @@ impl SinesWhenRead {
             }
         }
         let mut known = vec![false; trig.angles.len()];
+        // An output may be written before any branch.
+        for output in &program.outputs {
+            output.variables(&mut |name| sines.read(name, Moment::default(), &mut known));
+        }
         for (number, statement) in (1..).zip(&program.statements) {
             if let Statement::SideBySide(SideBySide { branches, inputs, .. }) = statement {
                 for branch in 0..*branches {
@@ -81,9 +85,12 @@ impl SinesWhenRead {
 
 #[cfg(test)]
 mod tests {
+    use super::super::body::{Schedule, body};
+    use super::super::writes::{LARGE_MATRIX, Writes};
     use super::*;
     use crate::angles::{Angle, Term};
     use crate::program::{Input, Value};
+    use redysim_runtime::function::Shape;
 
     fn variable(name: &str) -> Value {
         Value::Variable(name.into())
@@ -132,6 +139,23 @@ mod tests {
         assert_eq!(computed(2, 0), "");
         let expressions = sines.expressions();
         assert_eq!(expressions["sin_3"].to_string().replace(' ', ""), "sines.sin[2]");
+    }
+
+    #[test]
+    fn sines_that_are_elements_of_a_matrix_are_computed_first_and_written() {
+        let (trig, mut program) = function();
+        program.outputs = vec![variable("sin_3"), variable("base"), variable("sin_1")];
+        program.outputs.resize(LARGE_MATRIX, Value::Constant(0.0));
+        assert_eq!(SinesWhenRead::of(&trig, &program), None, "the branches read no sine first");
+
+        program.outputs[2] = variable("base");
+        let (writes, sines) = (Writes::of(Shape::MassMatrix, &program), SinesWhenRead::of(&trig, &program));
+        assert_eq!(sines.as_ref().map(|sines| sines.before[&Moment::default()].clone()), Some(vec![2, 0, 3]));
+        let code =
+            body(&program, &[], &quote!(runtime), &Schedule { writes, sines }, |_| unreachable!("it is written"));
+        let code = code.to_string().replace(' ', "");
+        let calls = ["matrix.write(sines.sin[2]);", "matrix.write(base);", "matrix.zeros();"];
+        assert_eq!(calls.map(|call| code.matches(call).count()), [1, 2, 1], "{code}");
     }
 
     #[test]

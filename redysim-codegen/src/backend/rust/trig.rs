@@ -44,7 +44,10 @@ pub fn when_read(trig: &TrigProgram, runtime: &TokenStream) -> (TokenStream, Tok
         let angles = [#(#angles),*];
         let (mut sin, mut cos) = #runtime::sines_at_once(&angles);
     };
-    (computed, quote!(&mut #runtime::Sines { angles: Some(&angles), sin: &mut sin, cos: &mut cos }))
+    (
+        computed,
+        quote!(&mut #runtime::Sines { angles: ::core::option::Option::Some(&angles), sin: &mut sin, cos: &mut cos }),
+    )
 }
 
 /// The same for one to which the sines and cosines of all angles are given in `argument`.
@@ -58,7 +61,7 @@ pub fn given(trig: &TrigProgram, argument: &Ident, runtime: &TokenStream) -> (To
         quote!([#(#elements),*])
     });
     let computed = quote!(let (mut sin, mut cos) = (#sin, #cos););
-    (computed, quote!(&mut #runtime::Sines { angles: None, sin: &mut sin, cos: &mut cos }))
+    (computed, quote!(&mut #runtime::Sines { angles: ::core::option::Option::None, sin: &mut sin, cos: &mut cos }))
 }
 
 /// The statement that takes whole turns off coordinates.
@@ -68,7 +71,7 @@ fn turns_taken_off(TrigProgram { without_turns: coordinates, .. }: &TrigProgram)
     (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
 }
 
-/// The same angles in the order in which their sines and cosines are best computed, a vector of them after the other: those that
+/// The same angles in the order in which their sines and cosines are best computed, one vector after the other: those that
 /// `program` reads first come first, so that it begins while the others are computed, and branches side by side read a vector as
 /// it was computed. In a vector the angles keep their order, since coordinates in a row are loaded at once.
 pub fn in_order_of_reading(trig: &TrigProgram, program: &Program) -> TrigProgram {

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 /// From this number of elements on, a matrix of which at least a third are zero is written element by element where the function
 /// returns it. LLVM composes an array literal of that size elsewhere and copies it, which in lanes takes more time than to
 /// compute it; of a matrix without zeros it takes less.
-const LARGE_MATRIX: usize = 256;
+pub const LARGE_MATRIX: usize = 256;
 
 /// The order in which the elements of a matrix are written, and when.
 pub struct Writes {
