@@ -80,7 +80,7 @@ impl<S, B, const M: usize, const N: usize, const K: usize> Deref for SideBySide<
 /// Computes branches from number `$first` on in the lanes of a vector.
 #[cfg(feature = "lanes")]
 macro_rules! in_lanes {
-    ($lanes:ident: $width:literal from $first:literal, $behaviour:ident, $branches:ident, $read:ident, $write:ident) => {
+    ($lanes:ty: $width:literal from $first:literal, $behaviour:ident, $branches:ident, $read:ident, $write:ident) => {
         $behaviour::compute(
             $read,
             #[inline(always)]
@@ -93,11 +93,11 @@ macro_rules! in_lanes {
                     numbers[lane] = x[if branch < $branches { branch } else { $branches - 1 }];
                     lane += 1;
                 }
-                $crate::lanes::$lanes::from(numbers)
+                <$lanes>::from(numbers)
             },
             #[inline(always)]
-            |column, value: $crate::lanes::$lanes| {
-                let numbers = value.to_array();
+            |column, value: $lanes| {
+                let numbers: [Self; $width] = value.into();
                 let mut lane = 0;
                 while lane < $width && $first + lane < $branches {
                     $write($first + lane, column, numbers[lane]);
@@ -107,5 +107,37 @@ macro_rules! in_lanes {
         )
     };
 }
+
+/// [`Scalar::compute_branch`] of a number: all branches with the first one, in the lanes of `$pair` or `$four`.
 #[cfg(feature = "lanes")]
-pub(crate) use in_lanes;
+macro_rules! compute_branches_in_lanes {
+    ($pair:ty: $two:literal, $four:ty: $width:literal) => {
+        #[inline(always)]
+        fn compute_branch<
+            B: $crate::branches::Branches<Self, M, N, K>,
+            const M: usize,
+            const N: usize,
+            const K: usize,
+        >(
+            branch: usize,
+            read: &[Self; M],
+            mut write: impl FnMut(usize, usize, Self),
+        ) {
+            if branch > 0 {
+                return;
+            }
+            if N == 2 {
+                $crate::branches::in_lanes!($pair: $two from 0, B, N, read, write);
+            } else {
+                $crate::branches::in_lanes!($four: $width from 0, B, N, read, write);
+            }
+            if N == 5 || N == 6 {
+                $crate::branches::in_lanes!($pair: $two from 4, B, N, read, write);
+            } else if N > 6 {
+                $crate::branches::in_lanes!($four: $width from 4, B, N, read, write);
+            }
+        }
+    };
+}
+#[cfg(feature = "lanes")]
+pub(crate) use {compute_branches_in_lanes, in_lanes};

@@ -1,7 +1,7 @@
 //! `f64` and `f32` as scalars.
 
 #[cfg(feature = "lanes")]
-use crate::branches::{Branches, in_lanes};
+use crate::branches::compute_branches_in_lanes;
 #[cfg(feature = "lanes")]
 use crate::registers::{self, Register};
 use crate::scalar::{FUSED, Real, Scalar};
@@ -58,26 +58,7 @@ macro_rules! real {
                 sum
             }
             #[cfg(feature = "lanes")]
-            #[inline(always)]
-            fn compute_branch<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
-                branch: usize,
-                read: &[Self; M],
-                mut write: impl FnMut(usize, usize, Self),
-            ) {
-                if branch > 0 {
-                    return;
-                }
-                if N == 2 {
-                    in_lanes!($pair: $two from 0, B, N, read, write);
-                } else {
-                    in_lanes!($four: $width from 0, B, N, read, write);
-                }
-                if N == 5 || N == 6 {
-                    in_lanes!($pair: $two from 4, B, N, read, write);
-                } else if N > 6 {
-                    in_lanes!($four: $width from 4, B, N, read, write);
-                }
-            }
+            compute_branches_in_lanes!(crate::lanes::$pair: $two, crate::lanes::$four: $width);
             #[cfg(feature = "lanes")]
             #[inline(always)]
             fn apart<const N: usize>(mut numbers: [Self; N]) -> [Self; N] {

@@ -3,9 +3,9 @@
 //! The tests pass without a check on processors that lack the instructions.
 
 use super::Instructions;
-use super::x86::{Avx2F32, Avx2F32x8, Avx2F64, Avx2F64x4, Avx512F32x16, Avx512F64x8};
-use crate::Scalar;
+use super::x86::{Avx2F32, Avx2F32x4, Avx2F32x8, Avx2F64, Avx2F64x2, Avx2F64x4, Avx512F32x16, Avx512F64x8};
 use crate::lanes::Lanes;
+use crate::{Branches, Scalar, SideBySide};
 use std::is_x86_feature_detected as has;
 
 /// Numbers of all sizes, angles for every path of the reduction, infinity and NaN.
@@ -97,12 +97,48 @@ fn all_operations_are_the_same<T: Bits, L: Lanes<T, W>, const W: usize>() {
 #[test]
 fn every_lane_does_what_a_number_does() {
     if has!("avx2") && has!("fma") && has!("bmi1") && has!("bmi2") {
+        all_operations_are_the_same::<Avx2F64, Avx2F64x2, 2>();
         all_operations_are_the_same::<Avx2F64, Avx2F64x4, 4>();
+        all_operations_are_the_same::<Avx2F32, Avx2F32x4, 4>();
         all_operations_are_the_same::<Avx2F32, Avx2F32x8, 8>();
         if has!("avx512f") && has!("avx512bw") && has!("avx512cd") && has!("avx512dq") && has!("avx512vl") {
             all_operations_are_the_same::<Avx2F64, Avx512F64x8, 8>();
             all_operations_are_the_same::<Avx2F32, Avx512F32x16, 16>();
         }
+    }
+}
+
+/// The square of a number of each branch, and its sum with one that all have.
+struct Squares;
+
+impl<T: Scalar, const N: usize> Branches<T, 8, N, 2> for Squares {
+    fn compute<S: Scalar>(read: &[T; 8], each: impl Fn([T; N]) -> S, mut write: impl FnMut(usize, S)) {
+        let (own, common) = (each(core::array::from_fn(|branch| read[branch])), each([read[7]; N]));
+        let square = own * own;
+        write(0, square);
+        write(1, square + common);
+    }
+}
+
+#[test]
+fn branches_in_lanes_have_the_bits_of_each_alone() {
+    fn branches<T: Bits, const N: usize>() {
+        let numbers: [T; 8] = core::array::from_fn(|index| T::from_f64(NUMBERS[index]));
+        let results = SideBySide::<T, Squares, 8, N, 2>::all(&numbers);
+        for (results, number) in results.into_iter().zip(numbers) {
+            let square = number * number;
+            assert_eq!(results.map(Bits::bits), [square, square + numbers[7]].map(Bits::bits), "{number:?} of {N}");
+        }
+    }
+    if has!("avx2") && has!("fma") && has!("bmi1") && has!("bmi2") {
+        branches::<Avx2F64, 2>();
+        branches::<Avx2F64, 3>();
+        branches::<Avx2F64, 5>();
+        branches::<Avx2F64, 8>();
+        branches::<Avx2F32, 2>();
+        branches::<Avx2F32, 4>();
+        branches::<Avx2F32, 6>();
+        branches::<Avx2F32, 7>();
     }
 }
 

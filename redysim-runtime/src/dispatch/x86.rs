@@ -17,6 +17,7 @@
 
 #![allow(unsafe_code)]
 
+use crate::branches::compute_branches_in_lanes;
 use crate::scalar::Scalar;
 use crate::trigonometry::angle::{Angle, Number};
 use crate::trigonometry::in_turn::in_turn;
@@ -88,7 +89,7 @@ macro_rules! with_target_features {
 }
 
 macro_rules! numbers {
-    ($($(#[$documentation:meta])* $name:ident($float:ident), $kernel:ident, $lanes:ident: $width:literal;)*) => {$(
+    ($($(#[$documentation:meta])* $name:ident($float:ident), $kernel:ident, $lanes:ident: $width:literal, branches: $pair:ident: $two:literal, $four:ident;)*) => {$(
         $(#[$documentation])*
         #[derive(Clone, Copy, Debug, Default)]
         #[repr(transparent)]
@@ -107,6 +108,8 @@ macro_rules! numbers {
 
         impl Scalar for $name {
             with_target_features!("avx2,fma,bmi1,bmi2");
+            compute_branches_in_lanes!($pair: $two, $four: 4);
+            const AT_ONCE: bool = true;
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -202,9 +205,9 @@ macro_rules! numbers {
 
 numbers! {
     /// An `f64` in code for AVX2 and FMA.
-    Avx2F64(f64), double, Avx2F64x4: 4;
+    Avx2F64(f64), double, Avx2F64x4: 4, branches: Avx2F64x2: 2, Avx2F64x4;
     /// An `f32` in code for AVX2 and FMA.
-    Avx2F32(f32), single, Avx2F32x8: 8;
+    Avx2F32(f32), single, Avx2F32x8: 8, branches: Avx2F32x4: 4, Avx2F32x4;
 }
 
 /// The instructions of one kind of vector. Bits are those of integers as wide as the numbers.
@@ -414,6 +417,26 @@ macro_rules! lanes {
             }
         }
     };
+}
+
+lanes! {
+    /// Two `f64`.
+    Avx2F64x2(__m128d in xmm_reg): 2 of f64 (Avx2F64) by "avx2,fma,bmi1,bmi2", double,
+    _mm_set1_pd, _mm_loadu_pd, _mm_storeu_pd, _mm_sqrt_pd, _mm_min_pd, _mm_fmadd_pd,
+    [Add add _mm_add_pd, Sub sub _mm_sub_pd, Mul mul _mm_mul_pd, Div div _mm_div_pd],
+    bits: _mm_castpd_si128, _mm_castsi128_pd, _mm_set1_epi64x,
+    _mm_and_si128, _mm_xor_si128, _mm_add_epi64, _mm_sub_epi64, _mm_slli_epi64::<62>,
+    at_most: |number, limit| _mm_movemask_pd(_mm_cmple_pd(number, limit)) == 0b11
+}
+
+lanes! {
+    /// Four `f32`.
+    Avx2F32x4(__m128 in xmm_reg): 4 of f32 (Avx2F32) by "avx2,fma,bmi1,bmi2", single,
+    _mm_set1_ps, _mm_loadu_ps, _mm_storeu_ps, _mm_sqrt_ps, _mm_min_ps, _mm_fmadd_ps,
+    [Add add _mm_add_ps, Sub sub _mm_sub_ps, Mul mul _mm_mul_ps, Div div _mm_div_ps],
+    bits: _mm_castps_si128, _mm_castsi128_ps, _mm_set1_epi32,
+    _mm_and_si128, _mm_xor_si128, _mm_add_epi32, _mm_sub_epi32, _mm_slli_epi32::<30>,
+    at_most: |number, limit| _mm_movemask_ps(_mm_cmple_ps(number, limit)) == 0xf
 }
 
 lanes! {
