@@ -36,7 +36,7 @@ class Link:
     parent: int | None
     joint: str
     origin: Placement
-    # Unit vector in the link's frame, of a joint of one freedom.
+    # Unit vector in the link's frame, of a joint with one degree of freedom.
     axis: numpy.ndarray
     # Of armature, damping, stiffness and rest, for each velocity.
     physics: dict[str, float]

@@ -124,7 +124,7 @@ def row(urdf: Path, model: str, evaluate: Path, file: Path) -> tuple[list[float]
     file.write_text(model)
     joints, _ = answers([evaluate, file], [])
     if 'joint = "free"' in model or 'joint = "planar"' in model:
-        raise Refused("joints of several freedoms: not compared here")
+        raise Refused("joints with several degrees of freedom: not compared here")
     mimics = resolved(of_model(tomllib.loads(model)))
     peer, n, random = Simulator(urdf, joints, mimics), len(joints), numpy.random.default_rng(1)
     physics = Physics.random(peer.resisting(), random)

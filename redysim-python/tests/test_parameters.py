@@ -11,7 +11,7 @@ from test_functions import FUNCTIONS, arguments
 
 NAMES = ["link6.mass", "link6.com", "link6.inertia", "gravity", "joint2.damping", "joint3.stiffness", "joint3.rest"]
 FLOATING = ["body.mass", "gravity", "body.damping"]
-# A floating robot, with a joint of several freedoms.
+# A floating robot, with a joint with several degrees of freedom.
 TEXT = """name = "floater"
 gravity = [0, 0, -9.81]
 [[link]]

@@ -325,7 +325,7 @@ fn numbers(model: &Model) -> Vec<(Range<usize>, Range<usize>)> {
     model.links.iter().map(sizes).map(next).collect()
 }
 
-/// The motions along and about axes that a joint of several freedoms is in series; none of others.
+/// The motions along and about axes that a joint with several degrees of freedom is in series; none of others.
 fn steps(link: &Link) -> Vec<(JointKind, Vector3<f64>)> {
     let (slide, turn) = (|axis| (JointKind::Prismatic, axis), |axis| (JointKind::Revolute, axis));
     let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];

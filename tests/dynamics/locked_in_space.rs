@@ -1,4 +1,4 @@
-//! Joints of several freedoms that are locked: a floating arm is one that stands where its base is held.
+//! Joints with several degrees of freedom that are locked: a floating arm is one that stands where its base is held.
 #![cfg(feature = "generic")]
 
 use crate::common::comparison::Comparison;

@@ -1,4 +1,4 @@
-//! Rotors, damping, friction and springs in joints of several freedoms, against closed forms, gradients and the balance of
+//! Rotors, damping, friction and springs in joints with several degrees of freedom, against closed forms, gradients and the balance of
 //! energy. `random_trees.rs` has them against Kane's equations.
 #![cfg(feature = "generic")]
 

@@ -4,7 +4,7 @@
 //! scrambled order; in half of them with rotors, damping, friction and springs in the joints, in half with springs and
 //! dampers between points. Each has three frames of interest, on links or on the ground. Sixty trees more have spherical
 //! and free joints as well, anywhere, at quaternions of any length; and sixty more joints of every kind, with quaternions
-//! and with Euler angles of any sequence. In sixty more, joints of one freedom mimic others; in half of these, some of
+//! and with Euler angles of any sequence. In sixty more, joints with one degree of freedom mimic others; in half of these, some of
 //! such joints move no mass by themselves. A debug build takes a thirtieth of each.
 
 pub mod models;

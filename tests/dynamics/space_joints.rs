@@ -1,4 +1,4 @@
-//! Spherical and free joints by statements of physics: they are the joints of one freedom of which they can be built,
+//! Spherical and free joints by statements of physics: they are the joints with one degree of freedom of which they can be built,
 //! and the attitude of a floating mechanism is felt by gravity alone.
 #![cfg(feature = "generic")]
 
@@ -18,8 +18,8 @@ redysim! {
     struct Pendulum("models/spherical_pendulum.toml");
 }
 
-/// A joint of several freedoms between an arm that carries it and one that it carries, and the same with links without
-/// mass on joints of one freedom instead: along x, y and z for a free joint, then about z, y and x.
+/// A joint with several degrees of freedom between an arm that carries it and one that it carries, and the same with links without
+/// mass on joints with one degree of freedom instead: along x, y and z for a free joint, then about z, y and x.
 struct Pair {
     joint: JointKind,
     whole: GenericMechanism,

@@ -1,4 +1,4 @@
-//! Robots with joints of several freedoms, compiled: quaternions, of which there is one coordinate more than velocities, and
+//! Robots with joints with several degrees of freedom, compiled: quaternions, of which there is one coordinate more than velocities, and
 //! joints in series.
 
 use redysim::redysim;

@@ -163,7 +163,7 @@ pub const LAW: Key =
         .with_default("`free`");
 pub const DRIVEN: Key =
     Key::new("joints", "[\"crank\"]", "which are driven; or single velocities of them: [\"swivel.phi\"]")
-        .with_default("the actuated velocities; of `tracking-pd` those that the trajectory prescribes");
+        .with_default("the actuated velocities; of `tracking-pd` those of them that the trajectory prescribes");
 pub const TARGET: Key = Key::new("target", "[0, \"90 deg\"]", "rad or m").with_default("required");
 pub const KP: Key = Key::new("kp", "49.0", "of all joints, or one of each: [49.0, 20.0]").with_default("required");
 pub const KD: Key = Key::new("kd", "14.0", "of all joints, or one of each: [14.0, 8.0]").with_default("required");

@@ -1,4 +1,4 @@
-//! Laws and motions of single velocities of joints that have several: the same mechanism with a joint of one freedom for each
+//! Laws and motions of single velocities of joints that have several: the same mechanism with a joint with one degree of freedom for each
 //! moves as well.
 
 use std::fs;

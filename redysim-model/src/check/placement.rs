@@ -54,7 +54,7 @@ pub(super) fn of_several_freedoms(link: &LinkTable) -> Option<JointKind> {
     link.joint.value().copied().filter(|joint| joint.dof() > 1)
 }
 
-/// Reports keys that a joint of several freedoms does not take: an offset and Denavit-Hartenberg parameters belong to one
+/// Reports keys that a joint with several degrees of freedom does not take: an offset and Denavit-Hartenberg parameters belong to one
 /// coordinate, `axis` to a joint with one axis, and `far_end` to a joint whose coordinates are not those of the
 /// link's own frame.
 fn several_freedoms_by_origin(link: &LinkTable, findings: &mut Findings) {

@@ -48,7 +48,7 @@ fn displacements<P>(tree: &Tree<P>) -> Vec<bool> {
 ///
 /// Elimination runs from the tips to the ground, so an element of U is zero wherever one joint does not carry the
 /// other, as in M itself: nothing is filled in, and nothing is computed for such pairs. The freedoms of one joint stand
-/// for a chain of joints of one freedom each.
+/// for a chain of joints with one degree of freedom each.
 #[derive(Clone, Debug)]
 pub struct Factorisation<S> {
     /// Row by row in the order of bodies; only entries (ancestor, freedom) are used.

@@ -2,9 +2,9 @@
 
 use redysim_runtime::Scalar;
 
-/// The coordinates of a joint of one freedom.
+/// The coordinates of a joint with one degree of freedom.
 pub const COORDINATE_NAMES: &[&str] = &["q"];
-/// The velocities of a joint of one freedom.
+/// The velocities of a joint with one degree of freedom.
 pub const VELOCITY_NAMES: &[&str] = &["v"];
 
 /// N(q) v = v.

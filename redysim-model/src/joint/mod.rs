@@ -1,6 +1,6 @@
 //! What a joint does: one file for each kind, against one interface.
 //!
-//! A joint of one freedom moves its body along or about the z axis of the body's frame; others turn it about any axis.
+//! A joint with one degree of freedom moves its body along or about the z axis of the body's frame; others turn it about any axis.
 //! Its file states
 //!
 //! | item | what it is |

@@ -1,10 +1,10 @@
-//! Joints of several freedoms that are joints of one freedom in series, without mass between them.
+//! Joints with several degrees of freedom that are joints with one degree of freedom in series, without mass between them.
 
 use super::{EulerSequence, Joint, Measure};
 use crate::rotation::align_z;
 use crate::spatial::Mat3;
 
-/// A joint of several freedoms as joints of one freedom in series: translations, then rotations, each along or about an
+/// A joint with several degrees of freedom as joints with one degree of freedom in series: translations, then rotations, each along or about an
 /// axis of the frame that the ones before it have moved. Its velocities are the rates of its coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -42,7 +42,7 @@ impl Series {
         }
     }
 
-    /// The joints of one freedom, from the parent to the link.
+    /// The joints with one degree of freedom, from the parent to the link.
     pub fn elements(self) -> Vec<Element> {
         let (translations, rotations): (&[usize], Vec<usize>) = match self {
             Series::Universal => (&[], vec![0, 1]),

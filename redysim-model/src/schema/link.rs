@@ -350,7 +350,7 @@ fn mimic(mut reader: Reader<'_, '_>, turns: bool) -> MimicTable {
     }
 }
 
-/// A table, or an array with one for each velocity of a joint of several freedoms.
+/// A table, or an array with one for each velocity of a joint with several degrees of freedom.
 fn ranges(reader: &mut Reader<'_, '_>, joint: Option<LinkJoint>, turns: bool) -> Field<Vec<JointRange>> {
     reader.field(&keys::RANGE, |reader, path, value| {
         let measures = joint.map(LinkJoint::velocity_measures).filter(|measures| measures.len() > 1);

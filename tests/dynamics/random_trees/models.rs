@@ -103,7 +103,7 @@ fn bare_model(random: &mut Random, joints: Joints) -> Model {
         };
         let body = Link { coordinates, ..body };
         let z = Vec3([0.0, 0.0, 1.0]);
-        // Joints of several freedoms have no offset; spherical and free ones neither an axis nor a frame beyond.
+        // Joints with several degrees of freedom have no offset; spherical and free ones neither an axis nor a frame beyond.
         match joint {
             JointKind::Cylindrical => Link { offset: 0.0, ..body },
             JointKind::Universal | JointKind::Planar => Link { axis: z, offset: 0.0, ..body },
@@ -114,7 +114,7 @@ fn bare_model(random: &mut Random, joints: Joints) -> Model {
     Model { links, ..Model::new("random", Vec3::from_fn(|_| random.within(10.0))) }
 }
 
-/// Makes about half of the joints of one freedom mimic others, some of which mimic others themselves.
+/// Makes about half of the joints with one degree of freedom mimic others, some of which mimic others themselves.
 pub fn mimic_some(random: &mut Random, model: &mut Model) {
     let of_one = |link: &Link| link.joint.dof() == 1;
     let mut joints: Vec<usize> = (0..model.links.len()).filter(|&link| of_one(&model.links[link])).collect();
