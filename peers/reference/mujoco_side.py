@@ -8,7 +8,7 @@ import mujoco
 import numpy
 from tree import Link, Placement, Tree
 
-# The joints, one after the other, by name, type and axis; those of one freedom have an axis of the link.
+# The joints, one after the other, by name, type and axis; those with one degree of freedom have an axis of the link.
 SLIDES = [("_x", "slide", (1, 0, 0)), ("_y", "slide", (0, 1, 0)), ("_z", "slide", (0, 0, 1))]
 JOINTS = {
     "revolute": [("", "hinge", None)],

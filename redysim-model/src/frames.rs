@@ -1,10 +1,10 @@
 //! Frames of bodies chosen anew.
 //!
-//! The frame of a body on a joint with one degree of freedom may be turned about the joint's axis z and slid along it without
-//! changing the joint: q stays what it was. Other joints have coordinates that mean the model's own frame. With x along the common normal of the body's axis and a child's, and the origin at its foot, the child's fixed
-//! rotation is one about x and its arm has no more than two components, wherever the model put its frames (Khalil &
-//! Kleinfinger, "A new geometric notation for open and closed-loop robots", Proc. IEEE Int. Conf. on Robotics and
-//! Automation, 1986).
+//! The frame of a body on a joint with one degree of freedom may be turned about the joint's axis z and slid along it
+//! without changing the joint: q stays what it was. Other joints have coordinates that mean the model's own frame. With x
+//! along the common normal of the body's axis and a child's, and the origin at its foot, the child's fixed rotation is one
+//! about x and its arm has no more than two components, wherever the model put its frames (Khalil & Kleinfinger, "A new
+//! geometric notation for open and closed-loop robots", Proc. IEEE Int. Conf. on Robotics and Automation, 1986).
 
 use crate::inertia::Sym3;
 use crate::parameter::Parameter;

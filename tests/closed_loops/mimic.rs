@@ -159,7 +159,7 @@ fn inverse_dynamics_of_geared_cranks_returns_the_forces_that_were_applied() {
     }
 }
 
-/// Ten seconds of free motion. With one freedom and without losses, the energy and closed loops determine it.
+/// Ten seconds of free motion. With one degree of freedom and without losses, the energy and closed loops determine it.
 #[test]
 fn free_motion_of_geared_cranks_keeps_its_energy_and_its_loop_closed() {
     let judge = generic("test/geared_five_bar");

@@ -43,7 +43,7 @@ tree!(
 #[cfg(not(debug_assertions))]
 tree!(Tree24, "tests/reference/peer_trees/24.toml");
 
-/// The trees whose joints have one freedom, and those with spherical, planar and free joints as well.
+/// The trees whose joints have one degree of freedom, and those with spherical, planar and free joints as well.
 const ON_AXES: std::ops::RangeInclusive<usize> = 1..=20;
 const IN_SPACE: std::ops::RangeInclusive<usize> = 21..=30;
 

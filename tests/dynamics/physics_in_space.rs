@@ -1,5 +1,5 @@
-//! Rotors, damping, friction and springs in joints with several degrees of freedom, against closed forms, gradients and the balance of
-//! energy. `random_trees.rs` has them against Kane's equations.
+//! Rotors, damping, friction and springs in joints with several degrees of freedom, against closed forms, gradients and the
+//! balance of energy. `random_trees.rs` has them against Kane's equations.
 #![cfg(feature = "generic")]
 
 use crate::common::text::mechanism;

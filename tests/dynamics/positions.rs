@@ -11,7 +11,7 @@ use redysim::{ConfigurationSpace, Scalar, redysim};
 use std::f64::consts::PI;
 
 redysim! {
-    /// A free joint under six of one freedom.
+    /// A free joint under six with one degree of freedom.
     struct Floating("models/kr5_floating.toml", functions = [mass_matrix]);
 }
 

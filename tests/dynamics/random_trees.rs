@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// The seeds of trees whose joints have one freedom each: odd ones have rotors, damping, friction and springs in their
+/// The seeds of trees whose joints have one degree of freedom each: odd ones have rotors, damping, friction and springs in their
 /// joints.
 const OF_ONE_FREEDOM: Range<u64> = 0..200;
 /// The seeds of trees that have spherical and free joints as well.

@@ -1,4 +1,4 @@
-//! Joints that are several of one freedom in series: universal, cylindrical and planar ones, and spherical and free ones with
+//! Joints that are several joints in series: universal, cylindrical and planar ones, and spherical and free ones with
 //! Euler angles.
 #![cfg(feature = "generic")]
 

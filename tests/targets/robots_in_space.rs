@@ -1,5 +1,5 @@
-//! Robots with joints with several degrees of freedom, compiled: quaternions, of which there is one coordinate more than velocities, and
-//! joints in series.
+//! Robots whose joints have several degrees of freedom, compiled: quaternions, of which there is one coordinate more than
+//! velocities, and joints in series.
 
 use redysim::redysim;
 

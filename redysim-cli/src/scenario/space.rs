@@ -17,7 +17,7 @@ pub fn whole_orientations(layout: &Layout, mut velocities: Vec<usize>) -> Vec<us
 }
 
 /// The space of the positions along `velocities`, in this order: joints on the base, each by itself. A component of a joint in
-/// series is one of one freedom.
+/// series is a joint with one degree of freedom.
 pub fn alone(layout: &Layout, velocities: &[usize]) -> GenericMechanism {
     let kind = |&velocity: &usize| {
         let joint = layout.joint_of(velocity);

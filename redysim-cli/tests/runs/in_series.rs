@@ -1,4 +1,4 @@
-//! Runs of joints that are several of one freedom in series: names and units, how a scenario gives them, and their motion.
+//! Runs of joints that are several joints in series: names and units, how a scenario gives them, and their motion.
 
 use redysim_runtime::Real;
 use std::fs;

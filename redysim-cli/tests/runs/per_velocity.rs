@@ -1,5 +1,4 @@
-//! Laws and motions of single velocities of joints that have several: the same mechanism with a joint with one degree of freedom for each
-//! moves as well.
+//! Laws and motions of single velocities of joints that have several: the same mechanism moves with one joint for each velocity.
 
 use std::fs;
 use std::path::Path;

@@ -49,14 +49,14 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed>
     Some(Placed { placement, axis: axis?, offset: link.offset.value_or(0.0)?, frame })
 }
 
-/// The kind of the link's joint, if it has several freedoms.
+/// The kind of the link's joint, if it has several degrees of freedom.
 pub(super) fn of_several_freedoms(link: &LinkTable) -> Option<JointKind> {
     link.joint.value().copied().filter(|joint| joint.dof() > 1)
 }
 
-/// Reports keys that a joint with several degrees of freedom does not take: an offset and Denavit-Hartenberg parameters belong to one
-/// coordinate, `axis` to a joint with one axis, and `far_end` to a joint whose coordinates are not those of the
-/// link's own frame.
+/// Reports keys that a joint with several degrees of freedom does not take: an offset and Denavit-Hartenberg parameters
+/// belong to one coordinate, `axis` to a joint with one axis, and `far_end` to a joint whose coordinates are not those of
+/// the link's own frame.
 fn several_freedoms_by_origin(link: &LinkTable, findings: &mut Findings) {
     let Some(joint) = of_several_freedoms(link) else { return };
     let axis = given(&keys::AXIS, &link.axis).filter(|_| !joint.has_axis());

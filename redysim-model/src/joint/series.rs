@@ -4,8 +4,8 @@ use super::{EulerSequence, Joint, Measure};
 use crate::rotation::align_z;
 use crate::spatial::Mat3;
 
-/// A joint with several degrees of freedom as joints with one degree of freedom in series: translations, then rotations, each along or about an
-/// axis of the frame that the ones before it have moved. Its velocities are the rates of its coordinates.
+/// A joint with several degrees of freedom as joints with one degree of freedom in series: translations, then rotations,
+/// each along or about an axis of the frame that the ones before it have moved. Its velocities are the rates of its coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Series {

@@ -23,14 +23,14 @@ fn axis(random: &mut Random) -> Vector3<f64> {
     }
 }
 
-/// The kinds of joint that are several of one freedom in series, if spherical and free ones have Euler angles.
+/// The kinds of joint that are several joints in series, if spherical and free ones have Euler angles.
 const SERIES: [JointKind; 5] =
     [JointKind::Universal, JointKind::Cylindrical, JointKind::Planar, JointKind::Spherical, JointKind::Free];
 
 /// Which joints a tree has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joints {
-    /// Of one freedom: revolute, prismatic, helical; and fixed ones.
+    /// With one degree of freedom: revolute, prismatic, helical; and fixed ones.
     OfOneFreedom,
     /// These, spherical and free ones with quaternions.
     InSpace,
@@ -59,7 +59,7 @@ pub fn random_model(random: &mut Random, joints: Joints, with_physics: bool, wit
 /// A tree of up to twelve links with nothing in its joints.
 fn bare_model(random: &mut Random, joints: Joints) -> Model {
     let count = 1 + random.below(12);
-    // One at least is of several freedoms; others are as often as any kind.
+    // One at least has several degrees of freedom; others are as often as any kind.
     let (chosen, kinds) = match joints {
         Joints::OfOneFreedom => (None, 5),
         Joints::InSpace => (Some(random.below(count)), 7),

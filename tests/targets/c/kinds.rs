@@ -1,6 +1,6 @@
 //! Mechanisms of other kinds compute the same bits in C: floating bases, cuts, frames, long chains, and run-time parameters
-//! of joints with several degrees of freedom. Their code takes long to compile: `.ci/run` alone has these tests, for the processor at
-//! hand and with the feature `deterministic`.
+//! of joints with several degrees of freedom. Their code takes long to compile: `.ci/run` alone has these tests, for the
+//! processor at hand and with the feature `deterministic`.
 
 use super::bits::{BallFourbar, Cuts, Machine, by_floating, by_machine, of_loops};
 use super::parameters::{OF_WORN, assert_statuses};
