@@ -123,6 +123,8 @@ macro_rules! compute_branches_in_lanes {
             read: &[Self; M],
             mut write: impl FnMut(usize, usize, Self),
         ) {
+            // The first call reads what all branches read.
+            const { assert!(N >= 2 && Self::AT_ONCE) };
             if branch > 0 {
                 return;
             }

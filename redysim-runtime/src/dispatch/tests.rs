@@ -6,7 +6,6 @@ use super::Instructions;
 use super::x86::{Avx2F32, Avx2F32x4, Avx2F32x8, Avx2F64, Avx2F64x2, Avx2F64x4, Avx512F32x16, Avx512F64x8};
 use crate::lanes::Lanes;
 use crate::{Branches, Scalar, SideBySide};
-use std::is_x86_feature_detected as has;
 
 /// Numbers of all sizes, angles for every path of the reduction, infinity and NaN.
 const NUMBERS: [f64; 20] = [
@@ -96,12 +95,12 @@ fn all_operations_are_the_same<T: Bits, L: Lanes<T, W>, const W: usize>() {
 
 #[test]
 fn every_lane_does_what_a_number_does() {
-    if has!("avx2") && has!("fma") && has!("bmi1") && has!("bmi2") {
+    if Instructions::of_processor() >= Instructions::Avx2 {
         all_operations_are_the_same::<Avx2F64, Avx2F64x2, 2>();
         all_operations_are_the_same::<Avx2F64, Avx2F64x4, 4>();
         all_operations_are_the_same::<Avx2F32, Avx2F32x4, 4>();
         all_operations_are_the_same::<Avx2F32, Avx2F32x8, 8>();
-        if has!("avx512f") && has!("avx512bw") && has!("avx512cd") && has!("avx512dq") && has!("avx512vl") {
+        if Instructions::of_processor() >= Instructions::Avx512 {
             all_operations_are_the_same::<Avx2F64, Avx512F64x8, 8>();
             all_operations_are_the_same::<Avx2F32, Avx512F32x16, 16>();
         }
@@ -130,7 +129,7 @@ fn branches_in_lanes_have_the_bits_of_each_alone() {
             assert_eq!(results.map(Bits::bits), [square, square + numbers[7]].map(Bits::bits), "{number:?} of {N}");
         }
     }
-    if has!("avx2") && has!("fma") && has!("bmi1") && has!("bmi2") {
+    if Instructions::of_processor() >= Instructions::Avx2 {
         branches::<Avx2F64, 2>();
         branches::<Avx2F64, 3>();
         branches::<Avx2F64, 5>();
@@ -152,7 +151,7 @@ fn a_list_of_angles_gives_the_bits_of_each_alone() {
             assert_eq!([sin[index].bits(), cos[index].bits()], [alone.0.bits(), alone.1.bits()], "{angle:?} of {N}");
         }
     }
-    if has!("avx2") && has!("fma") && has!("bmi1") && has!("bmi2") {
+    if Instructions::of_processor() >= Instructions::Avx2 {
         list::<Avx2F64, 1>();
         list::<Avx2F64, 3>();
         list::<Avx2F64, 6>();

@@ -107,9 +107,10 @@ macro_rules! numbers {
         }
 
         impl Scalar for $name {
+            const AT_ONCE: bool = true;
+
             with_target_features!("avx2,fma,bmi1,bmi2");
             compute_branches_in_lanes!($pair: $two, $four: 4);
-            const AT_ONCE: bool = true;
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
