@@ -42,6 +42,24 @@ impl<S: Scalar> Vec3<S> {
         Vec3([component(0), component(1), component(2)])
     }
 
+    /// Component `i` by comparisons, for an axis that is only known at run time. An index would keep the vector in
+    /// memory, where loading it waits for its stores.
+    #[inline(always)]
+    pub fn component(self, i: usize) -> S {
+        let Vec3([x, y, z]) = self;
+        match i {
+            0 => x,
+            1 => y,
+            _ => z,
+        }
+    }
+
+    /// The vector whose component `i` is `value`.
+    #[inline(always)]
+    pub fn with_component(self, i: usize, value: S) -> Self {
+        Self::from_fn(|j| if j == i { value } else { self[j] })
+    }
+
     /// Constants of the model as scalars.
     pub fn constant(value: Vec3<f64>) -> Self {
         Self::from_fn(|i| S::from_f64(value[i]))
@@ -120,6 +138,14 @@ impl<S: Scalar> Mat3<S> {
         Self::from_fn(|i, j| S::from_f64(value.0[i][j]))
     }
 
+    /// The same matrix, of whose elements the compiler does not know that more than three lie side by side. It would load
+    /// eight into a vector of 512 bits, which code for one state avoids.
+    #[inline(always)]
+    pub(crate) fn apart(self) -> Self {
+        let Mat3([x, y, z]) = self;
+        Mat3([x, S::apart(y), z])
+    }
+
     /// Aᵀ.
     pub fn transpose(self) -> Self {
         Self::from_fn(|i, j| self.0[j][i])
@@ -132,8 +158,15 @@ impl<S: Scalar> Mat3<S> {
     }
 
     /// Column `j`.
+    #[inline(always)]
     pub fn column(self, j: usize) -> Vec3<S> {
-        Vec3::from_fn(|i| self.0[i][j])
+        Vec3::from_fn(|i| Vec3(self.0[i]).component(j))
+    }
+
+    /// Row `i`.
+    #[inline(always)]
+    pub fn row(self, i: usize) -> Vec3<S> {
+        self.transpose().column(i)
     }
 }
 
@@ -257,13 +290,16 @@ impl<S: Scalar> Twist<S> {
     }
 
     /// Component `i` of six, the angular ones first.
-    pub fn component(&self, i: usize) -> S {
-        if i < 3 { self.angular[i] } else { self.linear[i - 3] }
+    #[inline(always)]
+    pub fn component(self, i: usize) -> S {
+        if i < 3 { self.angular.component(i) } else { self.linear.component(i - 3) }
     }
 
-    /// Component `i` of six, the angular ones first, to be changed.
-    pub fn component_mut(&mut self, i: usize) -> &mut S {
-        if i < 3 { &mut self.angular[i] } else { &mut self.linear[i - 3] }
+    /// The same with `value` as component `i` of six.
+    #[inline(always)]
+    pub fn with_component(self, i: usize, value: S) -> Self {
+        let angular = self.angular.with_component(i, value);
+        Twist { angular, linear: Vec3::from_fn(|j| if j + 3 == i { value } else { self.linear[j] }) }
     }
 }
 
@@ -274,13 +310,16 @@ impl<S: Scalar> Wrench<S> {
     }
 
     /// Component `i` of six, the moment first.
-    pub fn component(&self, i: usize) -> S {
-        if i < 3 { self.moment[i] } else { self.force[i - 3] }
+    #[inline(always)]
+    pub fn component(self, i: usize) -> S {
+        if i < 3 { self.moment.component(i) } else { self.force.component(i - 3) }
     }
 
-    /// The same, to be changed.
-    pub fn component_mut(&mut self, i: usize) -> &mut S {
-        if i < 3 { &mut self.moment[i] } else { &mut self.force[i - 3] }
+    /// The same with `value` as component `i` of six.
+    #[inline(always)]
+    pub fn with_component(self, i: usize, value: S) -> Self {
+        let moment = self.moment.with_component(i, value);
+        Wrench { moment, force: Vec3::from_fn(|j| if j + 3 == i { value } else { self.force[j] }) }
     }
 
     /// The wrench times a scalar.
@@ -316,5 +355,33 @@ impl<S: Scalar> Add for Wrench<S> {
     type Output = Self;
     fn add(self, b: Self) -> Self {
         Wrench { moment: self.moment + b.moment, force: self.force + b.force }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_component_that_is_set_is_the_only_one_that_changes() {
+        let (first, second) = (Vec3([1.0, 2.0, 3.0]), Vec3([4.0, 5.0, 6.0]));
+        for i in 0..6 {
+            let twist = Twist { angular: first, linear: second }.with_component(i, 7.0);
+            let wrench = Wrench { moment: first, force: second }.with_component(i, 7.0);
+            for j in 0..6 {
+                let expected = if i == j { 7.0 } else { 1.0 + j as f64 };
+                assert_eq!(twist.component(j), expected, "component {j} of a twist whose component {i} is set");
+                assert_eq!(wrench.component(j), expected, "component {j} of a wrench whose component {i} is set");
+            }
+        }
+    }
+
+    #[test]
+    fn rows_and_columns_of_a_matrix_are_those_that_are_asked_for() {
+        let matrix = Mat3([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]]);
+        for i in 0..3 {
+            assert_eq!(matrix.row(i).0, matrix.0[i]);
+            assert_eq!(matrix.column(i).0, matrix.transpose().0[i]);
+        }
     }
 }

@@ -4,7 +4,7 @@ use super::frame::JointFrame;
 use super::trace::Trace;
 use crate::inertia::{RigidInertia, Sym3};
 use crate::joint::Screw;
-use crate::spatial::{Mat3, Twist, Vec3, Wrench};
+use crate::spatial::{Mat3, Twist, Wrench};
 use redysim_runtime::Scalar;
 
 /// The symmetric 6×6 matrix [J H; Hᵀ M] that takes the acceleration (ω̇, a) of a body to the wrench (n, f) it needs,
@@ -47,7 +47,7 @@ impl<S: Scalar> ArticulatedInertia<S> {
     /// I S, the wrench for a unit acceleration along one freedom of a joint.
     pub fn column(&self, screw: Screw) -> Wrench<S> {
         let axis = screw.axis;
-        let turn = Wrench { moment: self.tensor.full().column(axis), force: Vec3(self.coupling.0[axis]) };
+        let turn = Wrench { moment: self.tensor.full().column(axis), force: self.coupling.row(axis) };
         let slide = Wrench { moment: self.coupling.column(axis), force: self.mass.full().column(axis) };
         screw.combined(turn, slide)
     }

@@ -210,9 +210,8 @@ pub(super) fn articulated_bodies_of_all<'t, S: Scalar, P: ParameterIn<S>>(
                 Some(axis) if !has_rotor => {
                     // Sᵀ `ratio` is one, so the body's acceleration along S is known before the joint's.
                     let carried = acceleration.component(axis);
-                    *acceleration.component_mut(axis) = S::zero();
-                    let along = *inverse * *drive - ratio.dot(acceleration);
-                    *acceleration.component_mut(axis) = along;
+                    let along = *inverse * *drive - ratio.dot(acceleration.with_component(axis, S::zero()));
+                    acceleration = acceleration.with_component(axis, along);
                     along - carried
                 }
                 _ => {

@@ -67,7 +67,9 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
     frames.reserve(tree.bodies.len());
     trace.sweep("frames", tree.outward(), |index| {
         let (body, AxisPosition { angle, displacement, in_space }) = (&tree.bodies[index], positions[index]);
-        let parent = body.parent.and_then(|parent| frames[parent].body_rotation);
+        // Only loaded where there is one: loading it waits for the stores of the parent's frame.
+        let parent = body.parent.filter(|&parent| tree.bodies[parent].merged_parallel);
+        let parent = parent.and_then(|parent| frames[parent].body_rotation);
         let joint_rotation = angle.map(|Angle { value, is_sum, rotation }| {
             let (cos, sin) = rotation.unwrap_or_else(|| {
                 let (sin, cos) = value.sin_cos();
@@ -183,12 +185,18 @@ fn take_rotations<S: Scalar>(positions: &mut [AxisPosition<S>]) {
 }
 
 impl<S: Scalar> JointFrame<S> {
+    /// The columns of the product of all rotations, for numbers.
+    #[inline(always)]
+    fn whole_rotation(&self) -> Option<Mat3<S>> {
+        self.columns.map(Mat3::apart)
+    }
+
     /// A vector in the body's axes, in the parent's.
     #[inline(always)]
     pub fn to_parent(&self, v: Vec3<S>) -> Vec3<S> {
-        match self.columns {
+        match self.whole_rotation() {
             Some(columns) => product_by_columns(columns, v),
-            None => rotated(self.parent_rotation, self.fixed * rotated(self.rotation_about_z, v)),
+            None => rotated(self.parent_rotation, self.fixed.apart() * rotated(self.rotation_about_z, v)),
         }
     }
 
@@ -207,9 +215,12 @@ impl<S: Scalar> JointFrame<S> {
     /// A vector in the parent's axes, in the body's.
     #[inline(always)]
     pub fn to_body(&self, v: Vec3<S>) -> Vec3<S> {
-        match self.columns {
+        match self.whole_rotation() {
             Some(columns) => columns.fused_product(v),
-            None => rotated_back(self.rotation_about_z, self.fixed.transpose() * rotated_back(self.parent_rotation, v)),
+            None => rotated_back(
+                self.rotation_about_z,
+                self.fixed.apart().transpose() * rotated_back(self.parent_rotation, v),
+            ),
         }
     }
 
@@ -279,7 +290,7 @@ impl<S: Scalar> JointFrame<S> {
     /// A symmetric tensor of the body's axes, in the parent's.
     #[inline(always)]
     pub fn tensor_to_parent(&self, tensor: Sym3<S>) -> Sym3<S> {
-        match self.columns {
+        match self.whole_rotation() {
             Some(columns) => {
                 let rotation = columns.transpose();
                 let full = tensor.full();
@@ -295,7 +306,7 @@ impl<S: Scalar> JointFrame<S> {
     /// A general tensor of the body's axes, in the parent's.
     #[inline(always)]
     pub fn matrix_to_parent(&self, matrix: Mat3<S>) -> Mat3<S> {
-        if let Some(columns) = self.columns {
+        if let Some(columns) = self.whole_rotation() {
             let rotation = columns.transpose();
             return rotation * (matrix * rotation.transpose());
         }

@@ -31,7 +31,7 @@ impl<S: Scalar> BodyMotion<S> {
     fn carried(&self, frame: &JointFrame<S>) -> Carried<S> {
         let acceleration = Twist {
             angular: frame.to_body(self.angular_acceleration),
-            linear: frame.to_body(self.acceleration + self.angular_acceleration_tensor * frame.position),
+            linear: frame.to_body(self.acceleration + self.angular_acceleration_tensor.apart() * frame.position),
         };
         (frame.to_body(self.angular), acceleration)
     }
@@ -245,9 +245,11 @@ fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
         trace.name_wrench(wrench, ["moment", "force"], index);
         wrenches[index] = wrench;
         body.joint.project(wrench, &mut tau[body.v.clone()]);
-        for (tau, force) in tau[body.v.clone()].iter_mut().zip(in_joint(body, a.values()).into_iter().flatten()) {
-            if let Some(force) = force {
-                *tau += force;
+        if let Some(forces) = in_joint(body, a.values()) {
+            for (tau, force) in tau[body.v.clone()].iter_mut().zip(&forces) {
+                if let Some(force) = *force {
+                    *tau += force;
+                }
             }
         }
         for (i, &tau) in tau[body.v.clone()].iter().enumerate() {

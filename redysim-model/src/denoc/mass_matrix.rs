@@ -75,7 +75,8 @@ fn mass_matrix_of_all_in<S: Scalar, P: ParameterIn<S>>(
             let carried = composite.to_parent(&frames[index], planar[index]);
             composites[parent] = composites[parent].plus(&carried);
         }
-        for (column, mut wrench) in body.v.clone().zip(columns) {
+        for (column, &wrench) in body.v.clone().zip(&columns) {
+            let mut wrench = wrench;
             let mut at = index;
             loop {
                 let joint = &tree.bodies[at];
@@ -146,8 +147,7 @@ impl<S: Scalar> Composite<S> {
     #[inline(always)]
     fn unit_wrench(&self, screw: Screw) -> Wrench<S> {
         let force = across(screw.axis, self.inertia.moment);
-        let mut along = Vec3::zero();
-        along[screw.axis] = self.inertia.mass;
+        let along = Vec3::zero().with_component(screw.axis, self.inertia.mass);
         let turn = Wrench { moment: self.tensor_column(screw.axis), force };
         let slide = Wrench { moment: -force, force: along };
         screw.combined(turn, slide)

@@ -202,14 +202,23 @@ impl Joint {
     }
 
     /// `twist` + S v.
-    #[inline]
-    pub fn added<S: Scalar>(self, twist: Twist<S>, v: &[S]) -> Twist<S> {
-        (0..self.nv()).fold(twist, |twist, i| self.screw(i).added(twist, v[i]))
+    #[inline(always)]
+    pub fn added<S: Scalar>(self, mut twist: Twist<S>, v: &[S]) -> Twist<S> {
+        match self {
+            Joint::Revolute => revolute::SCREW.added(twist, v[0]),
+            Joint::Prismatic => prismatic::SCREW.added(twist, v[0]),
+            Joint::Helical { .. } | Joint::Spherical | Joint::Free => {
+                for (i, &v) in v.iter().enumerate() {
+                    twist = self.screw(i).added(twist, v);
+                }
+                twist
+            }
+        }
     }
 
     /// The acceleration of the body against its parent at zero joint acceleration, where the parent's angular velocity
     /// is `angular` in the body's axes: (ω × ω_r; (2 ω + ω_r) × u_r) for the velocity (ω_r; u_r) across the joint.
-    #[inline]
+    #[inline(always)]
     pub fn bias<S: Scalar>(self, angular: Vec3<S>, v: &[S]) -> Twist<S> {
         if self.is_on_axis() {
             return self.screw(0).bias(angular, v[0]);
@@ -222,7 +231,7 @@ impl Joint {
     }
 
     /// Sᵀ w, the joint forces of a wrench.
-    #[inline]
+    #[inline(always)]
     pub fn project<S: Scalar>(self, wrench: Wrench<S>, tau: &mut [S]) {
         for (i, tau) in tau.iter_mut().enumerate() {
             *tau = self.screw(i).project(wrench);

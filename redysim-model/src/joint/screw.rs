@@ -26,19 +26,19 @@ impl Screw {
     }
 
     /// How much of `x` is rotation about the axis; `None` if the screw does not turn.
-    #[inline]
+    #[inline(always)]
     pub fn turn<S: Scalar>(self, x: S) -> Option<S> {
         times(self.turn, x)
     }
 
     /// How much of `x` is displacement along the axis; `None` if the screw does not slide.
-    #[inline]
+    #[inline(always)]
     pub fn slide<S: Scalar>(self, x: S) -> Option<S> {
         times(self.slide, x)
     }
 
     /// Which of the six axes (angular x, y, z, linear x, y, z) S is, if it is one.
-    #[inline]
+    #[inline(always)]
     pub fn unit_axis(self) -> Option<usize> {
         match (self.turn, self.slide) {
             (1.0, 0.0) => Some(self.axis),
@@ -48,7 +48,7 @@ impl Screw {
     }
 
     /// The wrench for a unit of the velocity, of those for a unit rotation and a unit displacement.
-    #[inline]
+    #[inline(always)]
     pub fn combined<S: Scalar>(self, turn: Wrench<S>, slide: Wrench<S>) -> Wrench<S> {
         match self.unit_axis() {
             Some(0..3) => turn,
@@ -58,13 +58,13 @@ impl Screw {
     }
 
     /// S as a motion at the body's origin.
-    #[inline]
+    #[inline(always)]
     pub fn motion<S: Scalar>(self) -> Twist<S> {
         self.motion_at(Vec3::zero())
     }
 
     /// The motion of a point at `arm` from the joint's origin, for a unit of the velocity.
-    #[inline]
+    #[inline(always)]
     pub fn motion_at<S: Scalar>(self, arm: Vec3<S>) -> Twist<S> {
         let mut motion = Twist::zero();
         motion.angular[self.axis] = S::from_f64(self.turn);
@@ -76,16 +76,16 @@ impl Screw {
     }
 
     /// Sᵀ w, the joint force of a wrench about a point of the axis, in axes in which the screw's is `axis`.
-    #[inline]
+    #[inline(always)]
     pub fn project_along<S: Scalar>(self, axis: Vec3<S>, wrench: Wrench<S>) -> S {
         let [turn, slide] = [self.turn(wrench.moment.fused_dot(axis)), self.slide(wrench.force.fused_dot(axis))];
         turn.unwrap_or(S::zero()) + slide.unwrap_or(S::zero())
     }
 
     /// Sᵀ w, the joint force of a wrench.
-    #[inline]
+    #[inline(always)]
     pub fn project<S: Scalar>(self, wrench: Wrench<S>) -> S {
-        match (self.turn(wrench.moment[self.axis]), self.slide(wrench.force[self.axis])) {
+        match (self.turn(wrench.moment.component(self.axis)), self.slide(wrench.force.component(self.axis))) {
             (Some(moment), Some(force)) => moment + force,
             (Some(component), None) | (None, Some(component)) => component,
             (None, None) => S::zero(),
@@ -93,20 +93,17 @@ impl Screw {
     }
 
     /// `twist` + S `x`, for a velocity or an acceleration `x`.
-    #[inline]
-    pub fn added<S: Scalar>(self, mut twist: Twist<S>, x: S) -> Twist<S> {
-        if let Some(turn) = self.turn(x) {
-            twist.angular[self.axis] += turn;
-        }
-        if let Some(slide) = self.slide(x) {
-            twist.linear[self.axis] += slide;
-        }
-        twist
+    #[inline(always)]
+    pub fn added<S: Scalar>(self, Twist { angular, linear }: Twist<S>, x: S) -> Twist<S> {
+        let plus = |v: Vec3<S>, along: Option<S>| {
+            along.map_or(v, |along| v.with_component(self.axis, v.component(self.axis) + along))
+        };
+        Twist { angular: plus(angular, self.turn(x)), linear: plus(linear, self.slide(x)) }
     }
 
     /// The bias acceleration of a joint with this freedom alone, (ω × turn; 2 ω × slide) for the velocity `qd`, where the parent's angular
     /// velocity is `angular` in the body's axes.
-    #[inline]
+    #[inline(always)]
     pub fn bias<S: Scalar>(self, angular: Vec3<S>, qd: S) -> Twist<S> {
         let of = |along: S| (-across(self.axis, angular)).scale(along);
         Twist {
@@ -115,30 +112,32 @@ impl Screw {
         }
     }
 
-    /// `wrench` with the joint force set to `force`, its exact value.
-    #[inline]
-    pub fn with_force<S: Scalar>(self, mut wrench: Wrench<S>, force: S) -> Wrench<S> {
+    /// The wrench with its projection on S set to `along`, the exact joint force.
+    #[inline(always)]
+    pub fn with_force<S: Scalar>(self, Wrench { moment, force }: Wrench<S>, along: S) -> Wrench<S> {
         match self.unit_axis() {
-            Some(axis) => *wrench.component_mut(axis) = force,
+            Some(axis) => Wrench { moment, force }.with_component(axis, along),
             None => {
-                let missing = force - self.project(wrench);
-                wrench.moment[self.axis] += missing * S::from_f64(1.0 / self.turn);
+                let missing = along - self.project(Wrench { moment, force });
+                let turn = moment.component(self.axis) + missing * S::from_f64(1.0 / self.turn);
+                Wrench { moment: moment.with_component(self.axis, turn), force }
             }
         }
-        wrench
     }
 }
 
 /// e × v, where e is an axis.
-#[inline]
+#[inline(always)]
 pub fn across<S: Scalar>(axis: usize, v: Vec3<S>) -> Vec3<S> {
-    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut product = Vec3::zero();
-    (product[next], product[last]) = (-v[last], v[next]);
-    product
+    let Vec3([x, y, z]) = v;
+    match axis {
+        0 => Vec3([S::zero(), -z, y]),
+        1 => Vec3([z, S::zero(), -x]),
+        _ => Vec3([-y, x, S::zero()]),
+    }
 }
 
-#[inline]
+#[inline(always)]
 fn times<S: Scalar>(coefficient: f64, x: S) -> Option<S> {
     match coefficient {
         0.0 => None,
