@@ -275,6 +275,18 @@ pub struct Wrench<S> {
     pub force: Vec3<S>,
 }
 
+/// Component `i` of two vectors, those of the first one first.
+#[inline(always)]
+fn component_of_six<S: Scalar>([first, second]: [Vec3<S>; 2], i: usize) -> S {
+    if i < 3 { first.component(i) } else { second.component(i - 3) }
+}
+
+/// The same vectors with `value` as component `i` of six.
+#[inline(always)]
+fn with_component_of_six<S: Scalar>([first, second]: [Vec3<S>; 2], i: usize, value: S) -> [Vec3<S>; 2] {
+    if i < 3 { [first.with_component(i, value), second] } else { [first, second.with_component(i - 3, value)] }
+}
+
 impl<S: Scalar> Twist<S> {
     /// No motion.
     pub fn zero() -> Self {
@@ -292,14 +304,14 @@ impl<S: Scalar> Twist<S> {
     /// Component `i` of six, the angular ones first.
     #[inline(always)]
     pub fn component(self, i: usize) -> S {
-        if i < 3 { self.angular.component(i) } else { self.linear.component(i - 3) }
+        component_of_six([self.angular, self.linear], i)
     }
 
     /// The same with `value` as component `i` of six.
     #[inline(always)]
     pub fn with_component(self, i: usize, value: S) -> Self {
-        let angular = self.angular.with_component(i, value);
-        Twist { angular, linear: Vec3::from_fn(|j| if j + 3 == i { value } else { self.linear[j] }) }
+        let [angular, linear] = with_component_of_six([self.angular, self.linear], i, value);
+        Twist { angular, linear }
     }
 }
 
@@ -312,14 +324,14 @@ impl<S: Scalar> Wrench<S> {
     /// Component `i` of six, the moment first.
     #[inline(always)]
     pub fn component(self, i: usize) -> S {
-        if i < 3 { self.moment.component(i) } else { self.force.component(i - 3) }
+        component_of_six([self.moment, self.force], i)
     }
 
     /// The same with `value` as component `i` of six.
     #[inline(always)]
     pub fn with_component(self, i: usize, value: S) -> Self {
-        let moment = self.moment.with_component(i, value);
-        Wrench { moment, force: Vec3::from_fn(|j| if j + 3 == i { value } else { self.force[j] }) }
+        let [moment, force] = with_component_of_six([self.moment, self.force], i, value);
+        Wrench { moment, force }
     }
 
     /// The wrench times a scalar.

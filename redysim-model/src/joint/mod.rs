@@ -204,16 +204,13 @@ impl Joint {
     /// `twist` + S v.
     #[inline(always)]
     pub fn added<S: Scalar>(self, mut twist: Twist<S>, v: &[S]) -> Twist<S> {
-        match self {
-            Joint::Revolute => revolute::SCREW.added(twist, v[0]),
-            Joint::Prismatic => prismatic::SCREW.added(twist, v[0]),
-            Joint::Helical { .. } | Joint::Spherical | Joint::Free => {
-                for (i, &v) in v.iter().enumerate() {
-                    twist = self.screw(i).added(twist, v);
-                }
-                twist
-            }
+        if self.is_on_axis() {
+            return self.screw(0).added(twist, v[0]);
         }
+        for (i, &v) in v.iter().enumerate() {
+            twist = self.screw(i).added(twist, v);
+        }
+        twist
     }
 
     /// The acceleration of the body against its parent at zero joint acceleration, where the parent's angular velocity
