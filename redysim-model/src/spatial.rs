@@ -154,7 +154,8 @@ impl<S: Scalar> Mat3<S> {
     /// A b in multiply-adds.
     #[inline(always)]
     pub fn fused_product(self, b: Vec3<S>) -> Vec3<S> {
-        Vec3::from_fn(|i| Vec3(self.0[i]).fused_dot(b))
+        let rows = self.apart().0;
+        Vec3::from_fn(|i| Vec3(rows[i]).fused_dot(b))
     }
 
     /// Column `j`.
@@ -246,7 +247,8 @@ impl<S: Scalar> Sub for Mat3<S> {
 impl<S: Scalar> Mul<Vec3<S>> for Mat3<S> {
     type Output = Vec3<S>;
     fn mul(self, b: Vec3<S>) -> Vec3<S> {
-        Vec3::from_fn(|i| Vec3(self.0[i]).dot(b))
+        let rows = self.apart().0;
+        Vec3::from_fn(|i| Vec3(rows[i]).dot(b))
     }
 }
 

@@ -59,7 +59,8 @@ impl<S: Scalar> Placed<S> {
     pub fn carry(self, pose: Pose<S>, order: Order) -> Self {
         let arm = self.pose.rotation.fused_product(pose.position);
         let mut carried = self;
-        carried.pose = Pose { rotation: self.pose.rotation * pose.rotation, position: self.pose.position + arm };
+        let rotation = self.pose.rotation.apart() * pose.rotation.apart();
+        carried.pose = Pose { rotation, position: self.pose.position + arm };
         if order >= Order::Velocities {
             carried.velocity = self.velocity + self.derivative(arm);
         }

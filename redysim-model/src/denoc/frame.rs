@@ -185,18 +185,12 @@ fn take_rotations<S: Scalar>(positions: &mut [AxisPosition<S>]) {
 }
 
 impl<S: Scalar> JointFrame<S> {
-    /// The columns of the product of all rotations, for numbers.
-    #[inline(always)]
-    fn whole_rotation(&self) -> Option<Mat3<S>> {
-        self.columns.map(Mat3::apart)
-    }
-
     /// A vector in the body's axes, in the parent's.
     #[inline(always)]
     pub fn to_parent(&self, v: Vec3<S>) -> Vec3<S> {
-        match self.whole_rotation() {
+        match self.columns {
             Some(columns) => product_by_columns(columns, v),
-            None => rotated(self.parent_rotation, self.fixed.apart() * rotated(self.rotation_about_z, v)),
+            None => rotated(self.parent_rotation, self.fixed * rotated(self.rotation_about_z, v)),
         }
     }
 
@@ -215,12 +209,9 @@ impl<S: Scalar> JointFrame<S> {
     /// A vector in the parent's axes, in the body's.
     #[inline(always)]
     pub fn to_body(&self, v: Vec3<S>) -> Vec3<S> {
-        match self.whole_rotation() {
+        match self.columns {
             Some(columns) => columns.fused_product(v),
-            None => rotated_back(
-                self.rotation_about_z,
-                self.fixed.apart().transpose() * rotated_back(self.parent_rotation, v),
-            ),
+            None => rotated_back(self.rotation_about_z, self.fixed.transpose() * rotated_back(self.parent_rotation, v)),
         }
     }
 
@@ -290,7 +281,7 @@ impl<S: Scalar> JointFrame<S> {
     /// A symmetric tensor of the body's axes, in the parent's.
     #[inline(always)]
     pub fn tensor_to_parent(&self, tensor: Sym3<S>) -> Sym3<S> {
-        match self.whole_rotation() {
+        match self.columns {
             Some(columns) => {
                 let rotation = columns.transpose();
                 let full = tensor.full();
@@ -306,7 +297,7 @@ impl<S: Scalar> JointFrame<S> {
     /// A general tensor of the body's axes, in the parent's.
     #[inline(always)]
     pub fn matrix_to_parent(&self, matrix: Mat3<S>) -> Mat3<S> {
-        if let Some(columns) = self.whole_rotation() {
+        if let Some(columns) = self.columns {
             let rotation = columns.transpose();
             return rotation * (matrix * rotation.transpose());
         }
@@ -328,7 +319,8 @@ impl<S: Scalar> JointFrame<S> {
 
 /// The product of a matrix, given by its columns, and a vector.
 #[inline(always)]
-fn product_by_columns<S: Scalar>(Mat3([x, y, z]): Mat3<S>, v: Vec3<S>) -> Vec3<S> {
+fn product_by_columns<S: Scalar>(columns: Mat3<S>, v: Vec3<S>) -> Vec3<S> {
+    let Mat3([x, y, z]) = columns.apart();
     Vec3::from_fn(|i| z[i].mul_add(v[2], y[i].mul_add(v[1], x[i] * v[0])))
 }
 

@@ -31,7 +31,7 @@ impl<S: Scalar> BodyMotion<S> {
     fn carried(&self, frame: &JointFrame<S>) -> Carried<S> {
         let acceleration = Twist {
             angular: frame.to_body(self.angular_acceleration),
-            linear: frame.to_body(self.acceleration + self.angular_acceleration_tensor.apart() * frame.position),
+            linear: frame.to_body(self.acceleration + self.angular_acceleration_tensor * frame.position),
         };
         (frame.to_body(self.angular), acceleration)
     }
@@ -99,7 +99,8 @@ type Carried<S> = (Vec3<S>, Twist<S>);
 fn oppose<S: Scalar>((w, carried): Carried<S>, joint: Joint, v: &[S], a: &mut [S]) {
     let acceleration = carried + joint.bias(w, v);
     for (a, screw) in a.iter_mut().zip(joint.screws()) {
-        *a = screw.unit_axis().map_or(S::zero(), |axis| -acceleration.component(axis));
+        // One at a time, as in `Joint::project`.
+        [*a] = S::apart([screw.unit_axis().map_or(S::zero(), |axis| -acceleration.component(axis))]);
     }
 }
 
@@ -248,7 +249,8 @@ fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
         if let Some(forces) = in_joint(body, a.values()) {
             for (tau, force) in tau[body.v.clone()].iter_mut().zip(&forces) {
                 if let Some(force) = *force {
-                    *tau += force;
+                    // One at a time, as in `project`.
+                    [*tau] = S::apart([*tau + force]);
                 }
             }
         }

@@ -93,7 +93,7 @@ impl<S: Scalar> Side<S> {
         Side {
             body,
             arm: rotation.fused_product(Vec3::constant(end.point)),
-            axes: rotation * Mat3::constant(end.axes),
+            axes: rotation.apart() * Mat3::constant(end.axes).apart(),
             carried,
         }
     }

@@ -146,8 +146,9 @@ fn climb<S: Scalar>(
     while at != carrier {
         let Some(body) = at else { break };
         let arm = frames[body].to_parent(point);
-        let freedoms = 0..tree.bodies[body].v.len();
-        levers.extend(freedoms.map(|freedom| Lever { body, freedom, arm, value: S::zero() }));
+        for freedom in 0..tree.bodies[body].v.len() {
+            levers.push(Lever { body, freedom, arm, value: S::zero() });
+        }
         point = arm + frames[body].position;
         at = tree.bodies[body].parent;
     }

@@ -4,6 +4,8 @@
 
 #[cfg(feature = "every")]
 pub mod every;
+#[cfg(feature = "every")]
+pub mod run_time;
 
 use redysim::redysim;
 
