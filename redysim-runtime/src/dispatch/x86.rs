@@ -23,7 +23,7 @@ use crate::trigonometry::angle::{Angle, Number};
 use crate::trigonometry::in_turn::in_turn;
 use crate::trigonometry::reduction::Reduced;
 use crate::trigonometry::several::several;
-use crate::trigonometry::{double, fast_path, single, turns};
+use crate::trigonometry::{fast_path, turns};
 use core::arch::asm;
 use core::arch::x86_64::*;
 use core::fmt;
@@ -89,7 +89,7 @@ macro_rules! with_target_features {
 }
 
 macro_rules! numbers {
-    ($($(#[$documentation:meta])* $name:ident($float:ident), $kernel:ident, $lanes:ident: $width:literal, branches: $pair:ident: $two:literal, $four:ident;)*) => {$(
+    ($($(#[$documentation:meta])* $name:ident($float:ident), $lanes:ident: $width:literal, branches: $pair:ident: $two:literal, $four:ident;)*) => {$(
         $(#[$documentation])*
         #[derive(Clone, Copy, Debug, Default)]
         #[repr(transparent)]
@@ -144,28 +144,18 @@ macro_rules! numbers {
         }
 
         impl Number for $name {
+            type Kernel = <$float as Number>::Kernel;
             const HALF_PI: [Self; 2] = [Self($float::HALF_PI[0]), Self($float::HALF_PI[1])];
 
             #[inline(always)]
             fn reduced(self) -> Reduced<Self> {
-                let Reduced { rounded, rest, tail } = Number::reduced(self.0);
-                Reduced { rounded: Self(rounded), rest: Self(rest), tail: Self(tail) }
+                Number::reduced(self.0).map(Self)
             }
         }
 
         impl Angle for $name {
             type Number = Self;
             const FUSED: bool = FUSED;
-
-            #[inline(always)]
-            fn fast_reduction(self) -> (Reduced<Self>, Self) {
-                $kernel::reduced(self)
-            }
-
-            #[inline(always)]
-            fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
-                $kernel::evaluated(angle)
-            }
 
             #[inline(always)]
             fn all_at_most(self, limit: Self) -> bool {
@@ -206,15 +196,15 @@ macro_rules! numbers {
 
 numbers! {
     /// An `f64` in code for AVX2 and FMA.
-    Avx2F64(f64), double, Avx2F64x4: 4, branches: Avx2F64x2: 2, Avx2F64x4;
+    Avx2F64(f64), Avx2F64x4: 4, branches: Avx2F64x2: 2, Avx2F64x4;
     /// An `f32` in code for AVX2 and FMA.
-    Avx2F32(f32), single, Avx2F32x8: 8, branches: Avx2F32x4: 4, Avx2F32x4;
+    Avx2F32(f32), Avx2F32x8: 8, branches: Avx2F32x4: 4, Avx2F32x4;
 }
 
 /// The instructions of one kind of vector. Bits are those of integers as wide as the numbers.
 macro_rules! lanes {
     ($(#[$documentation:meta])* $name:ident($register:ident in $class:ident): $width:literal of $float:ident ($number:ident) by $features:literal,
-     $kernel:ident, $splat:ident, $load:ident, $store:ident, $sqrt:ident, $min:ident, $fused:ident,
+     $splat:ident, $load:ident, $store:ident, $sqrt:ident, $min:ident, $fused:ident,
      [$($operator:ident $operation:ident $instruction:ident),*],
      bits: $to_bits:ident, $from_bits:ident, $splat_bits:ident, $and:ident, $xor:ident, $plus:ident, $minus:ident,
      $shift:ident::<$second_bit_to_sign:literal>, at_most: |$left:ident, $right:ident| $at_most:expr) => {
@@ -374,16 +364,6 @@ macro_rules! lanes {
             const FUSED: bool = FUSED;
 
             #[inline(always)]
-            fn fast_reduction(self) -> (Reduced<Self>, Self) {
-                $kernel::reduced(self)
-            }
-
-            #[inline(always)]
-            fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
-                $kernel::evaluated(angle)
-            }
-
-            #[inline(always)]
             fn all_at_most(self, limit: Self) -> bool {
                 let ($left, $right) = (self.0, limit.0);
                 // SAFETY: see the head of the file.
@@ -422,7 +402,7 @@ macro_rules! lanes {
 
 lanes! {
     /// Two `f64`.
-    Avx2F64x2(__m128d in xmm_reg): 2 of f64 (Avx2F64) by "avx2,fma,bmi1,bmi2", double,
+    Avx2F64x2(__m128d in xmm_reg): 2 of f64 (Avx2F64) by "avx2,fma,bmi1,bmi2",
     _mm_set1_pd, _mm_loadu_pd, _mm_storeu_pd, _mm_sqrt_pd, _mm_min_pd, _mm_fmadd_pd,
     [Add add _mm_add_pd, Sub sub _mm_sub_pd, Mul mul _mm_mul_pd, Div div _mm_div_pd],
     bits: _mm_castpd_si128, _mm_castsi128_pd, _mm_set1_epi64x,
@@ -432,7 +412,7 @@ lanes! {
 
 lanes! {
     /// Four `f32`.
-    Avx2F32x4(__m128 in xmm_reg): 4 of f32 (Avx2F32) by "avx2,fma,bmi1,bmi2", single,
+    Avx2F32x4(__m128 in xmm_reg): 4 of f32 (Avx2F32) by "avx2,fma,bmi1,bmi2",
     _mm_set1_ps, _mm_loadu_ps, _mm_storeu_ps, _mm_sqrt_ps, _mm_min_ps, _mm_fmadd_ps,
     [Add add _mm_add_ps, Sub sub _mm_sub_ps, Mul mul _mm_mul_ps, Div div _mm_div_ps],
     bits: _mm_castps_si128, _mm_castsi128_ps, _mm_set1_epi32,
@@ -442,7 +422,7 @@ lanes! {
 
 lanes! {
     /// Four `f64`.
-    Avx2F64x4(__m256d in ymm_reg): 4 of f64 (Avx2F64) by "avx2,fma,bmi1,bmi2", double,
+    Avx2F64x4(__m256d in ymm_reg): 4 of f64 (Avx2F64) by "avx2,fma,bmi1,bmi2",
     _mm256_set1_pd, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd, _mm256_min_pd, _mm256_fmadd_pd,
     [Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd],
     bits: _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_set1_epi64x,
@@ -452,7 +432,7 @@ lanes! {
 
 lanes! {
     /// Eight `f32`.
-    Avx2F32x8(__m256 in ymm_reg): 8 of f32 (Avx2F32) by "avx2,fma,bmi1,bmi2", single,
+    Avx2F32x8(__m256 in ymm_reg): 8 of f32 (Avx2F32) by "avx2,fma,bmi1,bmi2",
     _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_sqrt_ps, _mm256_min_ps, _mm256_fmadd_ps,
     [Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps],
     bits: _mm256_castps_si256, _mm256_castsi256_ps, _mm256_set1_epi32,
@@ -463,7 +443,6 @@ lanes! {
 lanes! {
     /// Eight `f64`.
     Avx512F64x8(__m512d in zmm_reg): 8 of f64 (Avx2F64) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
-    double,
     _mm512_set1_pd, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd, _mm512_min_pd, _mm512_fmadd_pd,
     [Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd],
     bits: _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_set1_epi64,
@@ -474,7 +453,6 @@ lanes! {
 lanes! {
     /// Sixteen `f32`.
     Avx512F32x16(__m512 in zmm_reg): 16 of f32 (Avx2F32) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
-    single,
     _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps, _mm512_sqrt_ps, _mm512_min_ps, _mm512_fmadd_ps,
     [Add add _mm512_add_ps, Sub sub _mm512_sub_ps, Mul mul _mm512_mul_ps, Div div _mm512_div_ps],
     bits: _mm512_castps_si512, _mm512_castsi512_ps, _mm512_set1_epi32,

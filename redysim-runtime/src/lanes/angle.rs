@@ -4,26 +4,14 @@ use super::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 use crate::registers::Register;
 use crate::scalar::FUSED;
 use crate::trigonometry::angle::Angle;
-use crate::trigonometry::reduction::Reduced;
-use crate::trigonometry::{double, single};
 use bytemuck::cast;
 use wide::{u32x4, u32x8, u32x16, u64x2, u64x4, u64x8};
 
 macro_rules! angles {
-    ($lanes:ident of $float:ident, $kernel:ident, $bits:ident << $second_bit_to_sign:literal) => {
+    ($lanes:ident of $float:ident, $bits:ident << $second_bit_to_sign:literal) => {
         impl Angle for $lanes {
             type Number = $float;
             const FUSED: bool = FUSED;
-
-            #[inline(always)]
-            fn fast_reduction(self) -> (Reduced<Self>, Self) {
-                $kernel::reduced(self)
-            }
-
-            #[inline(always)]
-            fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
-                $kernel::evaluated(angle)
-            }
 
             #[inline(always)]
             fn all_at_most(self, limit: Self) -> bool {
@@ -100,9 +88,9 @@ impl F64x2 {
     }
 }
 
-angles!(F64x2 of f64, double, u64x2 << 62_u64);
-angles!(F64x4 of f64, double, u64x4 << 62_u64);
-angles!(F64x8 of f64, double, u64x8 << 62_u64);
-angles!(F32x4 of f32, single, u32x4 << 30_u32);
-angles!(F32x8 of f32, single, u32x8 << 30_u32);
-angles!(F32x16 of f32, single, u32x16 << 30_u32);
+angles!(F64x2 of f64, u64x2 << 62_u64);
+angles!(F64x4 of f64, u64x4 << 62_u64);
+angles!(F64x8 of f64, u64x8 << 62_u64);
+angles!(F32x4 of f32, u32x4 << 30_u32);
+angles!(F32x8 of f32, u32x8 << 30_u32);
+angles!(F32x16 of f32, u32x16 << 30_u32);

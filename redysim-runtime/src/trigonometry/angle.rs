@@ -1,7 +1,9 @@
 //! What the kernels ask of their angles beyond arithmetic.
 
+use super::double::Double;
 use super::reduction::{self, Reduced};
-use super::{double, single, single_reduction};
+use super::single::Single;
+use super::single_reduction;
 use crate::scalar::{FUSED, Scalar};
 
 /// One angle, or several side by side.
@@ -10,12 +12,6 @@ pub trait Angle: Scalar {
     type Number: Number;
     /// Whether `mul_add` rounds once.
     const FUSED: bool;
-
-    /// The Cody-Waite reduction, and the margin of its accuracy, see [`is_accurate`](super::fast_path::is_accurate).
-    fn fast_reduction(self) -> (Reduced<Self>, Self);
-
-    /// Sine and cosine of a reduced angle.
-    fn evaluated(angle: Reduced<Self>) -> (Self, Self);
 
     /// Whether every lane is at most that of `limit`; NaN is not.
     fn all_at_most(self, limit: Self) -> bool;
@@ -29,10 +25,33 @@ pub trait Angle: Scalar {
 
     /// `function` of each lane.
     fn one_by_one(self, function: impl Fn(Self::Number) -> (Self::Number, Self::Number)) -> (Self, Self);
+
+    /// The Cody-Waite reduction, and the margin of its accuracy, see [`is_accurate`](super::fast_path::is_accurate).
+    #[inline(always)]
+    fn fast_reduction(self) -> (Reduced<Self>, Self) {
+        <Self::Number as Number>::Kernel::reduced(self)
+    }
+
+    /// Sine and cosine of a reduced angle.
+    #[inline(always)]
+    fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
+        <Self::Number as Number>::Kernel::evaluated(angle)
+    }
+}
+
+/// Sine and cosine for one width of numbers, of one angle or of several side by side.
+pub trait Kernel {
+    /// The reduction that is accurate for nearly all angles, and its margin.
+    fn reduced<A: Angle>(angle: A) -> (Reduced<A>, A);
+
+    /// Sine and cosine of a reduced angle.
+    fn evaluated<A: Angle>(angle: Reduced<A>) -> (A, A);
 }
 
 /// One angle.
 pub trait Number: Angle<Number = Self> {
+    /// The kernel for numbers of this width.
+    type Kernel: Kernel;
     /// π/2 as the sum of two numbers.
     const HALF_PI: [Self; 2];
 
@@ -41,8 +60,9 @@ pub trait Number: Angle<Number = Self> {
 }
 
 macro_rules! one_angle {
-    ($float:ident, $kernel:ident, $second_bit_to_sign:literal, $reduced:path, $half_pi:expr) => {
+    ($float:ident, $kernel:ty, $second_bit_to_sign:literal, $reduced:path, $half_pi:expr) => {
         impl Number for $float {
+            type Kernel = $kernel;
             const HALF_PI: [Self; 2] = $half_pi;
 
             #[inline(always)]
@@ -54,16 +74,6 @@ macro_rules! one_angle {
         impl Angle for $float {
             type Number = Self;
             const FUSED: bool = FUSED;
-
-            #[inline(always)]
-            fn fast_reduction(self) -> (Reduced<Self>, Self) {
-                $kernel::reduced(self)
-            }
-
-            #[inline(always)]
-            fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
-                $kernel::evaluated(angle)
-            }
 
             #[inline(always)]
             fn all_at_most(self, limit: Self) -> bool {
@@ -94,5 +104,5 @@ macro_rules! one_angle {
     };
 }
 
-one_angle!(f64, double, 62, reduction::reduced, [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17]);
-one_angle!(f32, single, 30, single_reduction::by_digits, [core::f32::consts::FRAC_PI_2, -4.371_139e-8]);
+one_angle!(f64, Double, 62, reduction::reduced, [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17]);
+one_angle!(f32, Single, 30, single_reduction::by_digits, [core::f32::consts::FRAC_PI_2, -4.371_139e-8]);

@@ -8,7 +8,7 @@
 //!
 //! With fused multiply-adds the parts of π/2 are longer, and fewer operations keep the error below 1 unit in the last place.
 
-use super::angle::Angle;
+use super::angle::{Angle, Kernel};
 use super::fast_path::sin_cos;
 #[cfg(feature = "lanes")]
 use super::fast_path::{is_accurate, slow_path};
@@ -37,31 +37,10 @@ const MANY_TURNS: f64 = 1.0 / (1_u64 << 32) as f64;
 pub fn of_one(x: f64) -> (f64, f64) {
     #[cfg(feature = "lanes")]
     if registers::VECTORS {
-        let (angle, margin) = reduced(x);
+        let (angle, margin) = x.fast_reduction();
         return if is_accurate(margin) { side_by_side(angle) } else { x.one_by_one(slow_path) };
     }
     sin_cos(x)
-}
-
-/// The reduction that is accurate for nearly all angles, and its margin.
-#[inline(always)]
-pub fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
-    let k = A::from_f64;
-    let [high, low] = half_pi(A::FUSED).map(k);
-    let rounded = x.mul_add(k(FRAC_2_PI), k(ROUNDER));
-    let minus_n = k(ROUNDER) - rounded;
-    // The first difference is exact; the second leaves its roundoff in the tail. `subtracted` is exact: without fused
-    // multiply-adds since `first` is the larger (T. J. Dekker, 1971) or the rest is too small, with them as below.
-    let first = minus_n.mul_add(high, x);
-    let rest = minus_n.mul_add(low, first);
-    let subtracted = first - rest;
-    let tail = minus_n.mul_add(low, subtracted);
-    // Squares need no absolute values, and the kernel computes that of the rest anyway. With fused multiply-adds `subtracted` is
-    // exact where it is not larger than the rest, as `first` is a multiple of 2⁻⁵³, and the error of the low part is at most
-    // 2⁻⁵⁵ of it.
-    let too_small = if A::FUSED { subtracted } else { minus_n * k(TOO_SMALL) };
-    let margin = (-too_small).mul_add(too_small, (rest * rest).lesser(k(MANY_TURNS)));
-    (Reduced { rounded, rest, tail }, margin)
 }
 
 /// (sin r − r) / r³ as a polynomial in r².
@@ -84,27 +63,51 @@ const COSINE: [f64; 6] = [
     -1.1359658844005114e-11,
 ];
 
-/// Sine and cosine of an angle that is reduced.
-#[inline(always)]
-pub fn evaluated<A: Angle>(Reduced { rounded, rest: r, tail }: Reduced<A>) -> (A, A) {
-    let z = r * r;
-    let squares = z * z;
-    let polynomial = |terms: [f64; 6]| Polynomial::of(|term| A::from_f64(terms[term]), z, squares);
-    let (sin, cos) = if A::FUSED {
-        let sin = r + (r * z).mul_add(polynomial(SINE).value(squares), tail);
-        let Polynomial { low, high } = polynomial(COSINE);
-        let beyond_second_order = (squares * squares).mul_add(high, squares.mul_add(low, -r * tail));
-        // The product r · (−r/2) is exact, so that it needs no correction.
-        (sin, A::one() + r.mul_add(r * A::from_f64(-0.5), beyond_second_order))
-    } else {
-        let (near_one, correction) = second_order_cosine(z, r, tail);
-        let sin = r + (r * z).mul_add(polynomial(SINE).value(squares), tail * near_one);
-        (sin, near_one + squares.mul_add(polynomial(COSINE).value(squares), correction))
-    };
-    A::turned(rounded, sin, cos)
+/// The kernel of `f64`.
+pub struct Double;
+
+impl Kernel for Double {
+    #[inline(always)]
+    fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
+        let k = A::from_f64;
+        let [high, low] = half_pi(A::FUSED).map(k);
+        let rounded = x.mul_add(k(FRAC_2_PI), k(ROUNDER));
+        let minus_n = k(ROUNDER) - rounded;
+        // The first difference is exact; the second leaves its roundoff in the tail. `subtracted` is exact: without fused
+        // multiply-adds since `first` is the larger (T. J. Dekker, 1971) or the rest is too small, with them as below.
+        let first = minus_n.mul_add(high, x);
+        let rest = minus_n.mul_add(low, first);
+        let subtracted = first - rest;
+        let tail = minus_n.mul_add(low, subtracted);
+        // Squares need no absolute values, and the kernel computes that of the rest anyway. With fused multiply-adds `subtracted` is
+        // exact where it is not larger than the rest, as `first` is a multiple of 2⁻⁵³, and the error of the low part is at most
+        // 2⁻⁵⁵ of it.
+        let too_small = if A::FUSED { subtracted } else { minus_n * k(TOO_SMALL) };
+        let margin = (-too_small).mul_add(too_small, (rest * rest).lesser(k(MANY_TURNS)));
+        (Reduced { rounded, rest, tail }, margin)
+    }
+
+    #[inline(always)]
+    fn evaluated<A: Angle>(Reduced { rounded, rest: r, tail }: Reduced<A>) -> (A, A) {
+        let z = r * r;
+        let squares = z * z;
+        let polynomial = |terms: [f64; 6]| Polynomial::of(|term| A::from_f64(terms[term]), z, squares);
+        let (sin, cos) = if A::FUSED {
+            let sin = r + (r * z).mul_add(polynomial(SINE).value(squares), tail);
+            let Polynomial { low, high } = polynomial(COSINE);
+            let beyond_second_order = (squares * squares).mul_add(high, squares.mul_add(low, -r * tail));
+            // The product r · (−r/2) is exact, so that it needs no correction.
+            (sin, A::one() + r.mul_add(r * A::from_f64(-0.5), beyond_second_order))
+        } else {
+            let (near_one, correction) = second_order_cosine(z, r, tail);
+            let sin = r + (r * z).mul_add(polynomial(SINE).value(squares), tail * near_one);
+            (sin, near_one + squares.mul_add(polynomial(COSINE).value(squares), correction))
+        };
+        A::turned(rounded, sin, cos)
+    }
 }
 
-/// [`evaluated`] of one angle, sine and cosine side by side in two lanes: the same bits in fewer instructions.
+/// [`Double::evaluated`] of one angle, sine and cosine side by side in two lanes: the same bits in fewer instructions.
 #[inline(always)]
 #[cfg(feature = "lanes")]
 fn side_by_side(Reduced { rounded, rest: r, tail }: Reduced<f64>) -> (f64, f64) {
@@ -162,7 +165,7 @@ mod tests {
     fn the_numbers_nearest_to_right_angles_take_the_fast_path() {
         for turns in -8..=8 {
             let angle = f64::from(turns) * FRAC_PI_2;
-            let (_, margin) = reduced(angle);
+            let (_, margin) = angle.fast_reduction();
             assert!(is_accurate(margin) || !f64::FUSED, "{turns} quarter turns: the margin is {margin:e}");
         }
     }
@@ -173,7 +176,7 @@ mod tests {
         for angle in
             [many_turns, -1e16, 1e20, 6381956970095103.0 * libm::exp2(797.0), f64::MAX, f64::INFINITY, f64::NAN]
         {
-            let (_, margin) = reduced(angle);
+            let (_, margin) = angle.fast_reduction();
             assert!(!is_accurate(margin), "{angle:e}");
         }
     }

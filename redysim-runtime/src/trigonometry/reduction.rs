@@ -12,6 +12,14 @@ pub struct Reduced<A> {
     pub tail: A,
 }
 
+impl<A> Reduced<A> {
+    /// The reduction in numbers that `number` makes of these.
+    #[inline(always)]
+    pub fn map<B>(self, number: impl Fn(A) -> B) -> Reduced<B> {
+        Reduced { rounded: number(self.rounded), rest: number(self.rest), tail: number(self.tail) }
+    }
+}
+
 /// Added to a number below 2⁵¹ and taken away again, it leaves the nearest integer, and shows its bits in between.
 pub const ROUNDER: f64 = 6_755_399_441_055_744.0;
 /// 2²⁰ quarter turns.

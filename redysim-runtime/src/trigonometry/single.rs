@@ -6,7 +6,7 @@
 //! is seen by trying every one. Then two polynomials in r², of least relative error (found by Remez exchange with
 //! coefficients that are `f32`, `studies/sin_cos/minimax.py`: 2⁻²⁷·⁸ for the sine, 2⁻³¹·⁹ for the cosine), are evaluated.
 
-use super::angle::Angle;
+use super::angle::{Angle, Kernel};
 use super::fast_path::{is_accurate, slow_path};
 use super::reduction::Reduced;
 
@@ -38,7 +38,7 @@ pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32;
         for start in (0..N).step_by(8) {
             let mut one = |index: usize| {
                 if index < N {
-                    put(index, evaluated(reduced(angles[index]).0));
+                    put(index, f32::evaluated(angles[index].fast_reduction().0));
                 }
             };
             one(start);
@@ -77,42 +77,45 @@ fn constants<A: Angle>([a, b, c]: [f32; 3]) -> [A; 3] {
     [k(a), k(b), k(c)]
 }
 
-/// The reduction that is accurate for few turns, and its margin.
-#[inline(always)]
-pub fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
-    let rounded = x.mul_add(k(core::f32::consts::FRAC_2_PI), k(ROUNDER));
-    let minus_n = k::<A>(ROUNDER) - rounded;
-    let [a, b, c] = constants::<A>(half_pi(A::FUSED));
-    // The first difference is exact. The second leaves its roundoff in the tail, with that of its product.
-    let first = minus_n.mul_add(a, x);
-    let product = minus_n * b;
-    let rest = first + product;
-    let roundoff = (first - rest) + product;
-    let tail = if A::FUSED {
-        roundoff + minus_n.mul_add(c, minus_n.mul_add(b, -product))
-    } else {
-        minus_n.mul_add(c, roundoff)
-    };
-    (Reduced { rounded, rest, tail }, margin(x))
-}
-
 /// (sin r − r) / r³ as a polynomial in r².
 const SINE: [f32; 3] = [-0.166_666_54, 0.008_332_114, -0.000_195_091_63];
 
 /// (cos r − 1 + r²/2) / r⁴ as a polynomial in r².
 const COSINE: [f32; 3] = [0.041_666_646, -0.001_388_733_5, 2.443_594_7e-5];
 
-/// Sine and cosine of a reduced angle, |rest| ≤ π/4.
-#[inline(always)]
-pub fn evaluated<A: Angle>(Reduced { rounded, rest, tail }: Reduced<A>) -> (A, A) {
-    let z = rest * rest;
-    let [a, b, c] = constants::<A>(SINE);
-    let sin = rest + (rest * z).mul_add(c.mul_add(z, b).mul_add(z, a), tail);
-    let [a, b, c] = constants::<A>(COSINE);
-    // 1 − r²/2 rounded, and what that loses.
-    let (one, minus_half) = (k::<A>(1.0), k::<A>(-0.5));
-    let near_one = z.mul_add(minus_half, one);
-    let lost = (-rest).mul_add(tail, z.mul_add(minus_half, one - near_one));
-    let cos = near_one + (z * z).mul_add(c.mul_add(z, b).mul_add(z, a), lost);
-    A::turned(rounded, sin, cos)
+/// The kernel of `f32`.
+pub struct Single;
+
+impl Kernel for Single {
+    #[inline(always)]
+    fn reduced<A: Angle>(x: A) -> (Reduced<A>, A) {
+        let rounded = x.mul_add(k(core::f32::consts::FRAC_2_PI), k(ROUNDER));
+        let minus_n = k::<A>(ROUNDER) - rounded;
+        let [a, b, c] = constants::<A>(half_pi(A::FUSED));
+        // The first difference is exact. The second leaves its roundoff in the tail, with that of its product.
+        let first = minus_n.mul_add(a, x);
+        let product = minus_n * b;
+        let rest = first + product;
+        let roundoff = (first - rest) + product;
+        let tail = if A::FUSED {
+            roundoff + minus_n.mul_add(c, minus_n.mul_add(b, -product))
+        } else {
+            minus_n.mul_add(c, roundoff)
+        };
+        (Reduced { rounded, rest, tail }, margin(x))
+    }
+
+    #[inline(always)]
+    fn evaluated<A: Angle>(Reduced { rounded, rest, tail }: Reduced<A>) -> (A, A) {
+        let z = rest * rest;
+        let [a, b, c] = constants::<A>(SINE);
+        let sin = rest + (rest * z).mul_add(c.mul_add(z, b).mul_add(z, a), tail);
+        let [a, b, c] = constants::<A>(COSINE);
+        // 1 − r²/2 rounded, and what that loses.
+        let (one, minus_half) = (k::<A>(1.0), k::<A>(-0.5));
+        let near_one = z.mul_add(minus_half, one);
+        let lost = (-rest).mul_add(tail, z.mul_add(minus_half, one - near_one));
+        let cos = near_one + (z * z).mul_add(c.mul_add(z, b).mul_add(z, a), lost);
+        A::turned(rounded, sin, cos)
+    }
 }

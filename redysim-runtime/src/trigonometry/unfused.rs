@@ -1,7 +1,6 @@
 //! Sine and cosine that are the same on every processor.
 
 use super::angle::{Angle, Number};
-use super::double;
 use super::fast_path;
 use super::reduction::Reduced;
 use crate::scalar::Scalar;
@@ -67,25 +66,17 @@ impl Scalar for Unfused {
 }
 
 impl Number for Unfused {
+    type Kernel = <f64 as Number>::Kernel;
     const HALF_PI: [Self; 2] = [Unfused(f64::HALF_PI[0]), Unfused(f64::HALF_PI[1])];
 
     fn reduced(self) -> Reduced<Self> {
-        let Reduced { rounded, rest, tail } = Number::reduced(self.0);
-        Reduced { rounded: Unfused(rounded), rest: Unfused(rest), tail: Unfused(tail) }
+        Number::reduced(self.0).map(Unfused)
     }
 }
 
 impl Angle for Unfused {
     type Number = Self;
     const FUSED: bool = false;
-
-    fn fast_reduction(self) -> (Reduced<Self>, Self) {
-        double::reduced(self)
-    }
-
-    fn evaluated(angle: Reduced<Self>) -> (Self, Self) {
-        double::evaluated(angle)
-    }
 
     fn all_at_most(self, limit: Self) -> bool {
         self.0.all_at_most(limit.0)
