@@ -86,9 +86,9 @@ impl<S: Scalar> ArticulatedInertia<S> {
     /// With p the body's origin and all parts turned into the parent's axes: H' = H + p× M and
     /// J' = J + p× H'ᵀ + (p× Hᵀ)ᵀ.
     pub fn to_parent(self, frame: &JointFrame<S>) -> Self {
-        let tensor = frame.tensor_to_parent(self.tensor);
-        let turned = frame.matrix_to_parent(self.coupling);
-        let mass = frame.tensor_to_parent(self.mass);
+        let tensor = frame.rotation.tensor_to_parent(self.tensor);
+        let turned = frame.rotation.matrix_to_parent(self.coupling);
+        let mass = frame.rotation.tensor_to_parent(self.mass);
         let arm = frame.position.skew();
         let coupling = turned + arm * mass.full();
         let (near, far) = (arm * coupling.transpose(), arm * turned.transpose());

@@ -195,7 +195,9 @@ pub(super) fn articulated_bodies_of_all<'t, S: Scalar, P: ParameterIn<S>>(
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let carried = match body.parent.map(|parent| accelerations[parent]) {
             Some(parent) => frame.twist_to_body(parent),
-            None if loads == Loads::All => Twist { linear: frame.ground_to_body(-tree.gravity), ..Twist::zero() },
+            None if loads == Loads::All => {
+                Twist { linear: frame.rotation.ground_to_body(-tree.gravity), ..Twist::zero() }
+            }
             None => Twist::zero(),
         };
         let mut acceleration = carried + biases[index].acceleration;

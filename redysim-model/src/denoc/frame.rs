@@ -1,7 +1,7 @@
 //! One joint at one position: how vectors, wrenches and inertias pass between a body and its parent.
 
+use super::rotation::{FrameRotation, RotationAboutZ, RotationFactors, rotated, rotated_back, rotated_tensor};
 use super::trace::Trace;
-use crate::inertia::Sym3;
 use crate::joint::JointPosition;
 use crate::joint::quaternion::{self, Quaternion};
 use crate::parameter::ParameterIn;
@@ -10,32 +10,16 @@ use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
-/// A rotation about z: cosine and sine of its angle.
-type RotationAboutZ<S> = (S, S);
-
-/// The axes in which a body's quantities are computed, in its parent's: a fixed rotation, then the joint's own about z.
+/// The frame in which a body's quantities are computed, in its parent's.
 ///
-/// The two rotations are kept apart, since the fixed one is mostly made of zeros and ones. The axes of a body
-/// may not rotate with its joint ([`Body::merged_parallel`](crate::tree::Body::merged_parallel)); the body then rotates
-/// against them.
+/// Its axes may not rotate with its joint ([`Body::merged_parallel`](crate::tree::Body::merged_parallel)); the body then
+/// rotates against them.
 #[derive(Clone, Debug)]
 pub(super) struct JointFrame<S> {
-    /// The rotation of the parent against its axes, where these do not rotate with its joint and the axes are not
-    /// parallel.
-    parent_rotation: Option<RotationAboutZ<S>>,
-    /// The rotation by the body's placement, and by its joint where that can turn it about any axis.
-    fixed: Mat3<S>,
-    /// The columns of the product of all rotations between the parent's axes and the body's, for numbers.
-    columns: Option<Mat3<S>>,
-    /// The rotation of the body's axes by its joint; `None` where they do not rotate.
-    rotation_about_z: Option<RotationAboutZ<S>>,
+    /// The rotation of its axes in the parent's.
+    pub rotation: FrameRotation<S>,
     /// The rotation of the body against its axes; `None` where they are fixed to it.
     body_rotation: Option<RotationAboutZ<S>>,
-    /// Whether a product with the joint's axis is a column of the matrix: for symbols, if the joint's axis is one of the
-    /// parent's axes. For numbers it is a product like any other.
-    selects_column: bool,
-    /// The rotation by the body's placement, and by its joint if that can turn it about any axis.
-    in_space: Option<(Mat3<f64>, Quaternion<S>)>,
     /// The body's origin in the parent's axes.
     pub position: Vec3<S>,
 }
@@ -93,26 +77,19 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         if let Some(displacement) = displacement {
             position = position + rotated(parent_rotation, fixed.column(2)).scale(displacement);
         }
-        let selects_column = !T::WHOLE_ROTATIONS
-            && body.joint.is_on_axis()
+        let selects_column = body.joint.is_on_axis()
             && parent_rotation.is_none()
             && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
         let (rotation_about_z, body_rotation) =
             if body.merged_parallel { (None, joint_rotation) } else { (joint_rotation, None) };
-        let columns = T::WHOLE_ROTATIONS.then(|| {
-            let own = fixed.map_rows(|row| rotated_back(rotation_about_z, row)).transpose();
-            parent_rotation.map_or(own, |_| own.map_rows(|column| rotated(parent_rotation, column)))
-        });
-        frames.push(JointFrame {
-            parent_rotation,
-            fixed,
-            columns,
-            rotation_about_z,
-            body_rotation,
-            selects_column,
-            in_space: in_space.map(|(orientation, _)| (rotation, orientation)),
-            position,
-        });
+        let in_space = in_space.map(|(orientation, _)| (rotation, orientation));
+        let factors = RotationFactors { parent_rotation, fixed, rotation_about_z, selects_column, in_space };
+        let rotation = if T::WHOLE_ROTATIONS {
+            FrameRotation::Columns(factors.columns())
+        } else {
+            FrameRotation::Factors(factors)
+        };
+        frames.push(JointFrame { rotation, body_rotation, position });
     });
 }
 
@@ -188,10 +165,7 @@ impl<S: Scalar> JointFrame<S> {
     /// A vector in the body's axes, in the parent's.
     #[inline(always)]
     pub fn to_parent(&self, v: Vec3<S>) -> Vec3<S> {
-        match self.columns {
-            Some(columns) => product_by_columns(columns, v),
-            None => rotated(self.parent_rotation, self.fixed * rotated(self.rotation_about_z, v)),
-        }
+        self.rotation.to_parent(v)
     }
 
     /// A point given in the body's frame, in the parent's.
@@ -200,37 +174,10 @@ impl<S: Scalar> JointFrame<S> {
         self.to_parent(point) + self.position
     }
 
-    /// An axis of the joint, one of the body's frame, in the parent's axes.
-    #[inline(always)]
-    pub fn axis(&self, axis: usize) -> Vec3<S> {
-        rotated(self.parent_rotation, self.fixed.column(axis))
-    }
-
     /// A vector in the parent's axes, in the body's.
     #[inline(always)]
     pub fn to_body(&self, v: Vec3<S>) -> Vec3<S> {
-        match self.columns {
-            Some(columns) => columns.fused_product(v),
-            None => rotated_back(self.rotation_about_z, self.fixed.transpose() * rotated_back(self.parent_rotation, v)),
-        }
-    }
-
-    /// A vector in the axes of the ground, known before run time, in those of a body on it.
-    #[inline(always)]
-    pub fn ground_to_body(&self, v: Vec3<impl ParameterIn<S>>) -> Vec3<S> {
-        match self.in_space {
-            Some((placement, orientation)) if self.columns.is_none() => {
-                quaternion::turned_back(orientation, Mat3::constant(placement).transpose() * v)
-            }
-            _ => self.to_body(v.map(ParameterIn::value)),
-        }
-    }
-
-    /// The product of a matrix of the parent's axes and the joint's axis, in the body's axes; `None` where it costs more
-    /// than to select a column.
-    #[inline(always)]
-    pub fn axis_image(&self, matrix: Mat3<S>) -> Option<Vec3<S>> {
-        self.selects_column.then(|| self.to_body(matrix * self.fixed.column(2)))
+        self.rotation.to_body(v)
     }
 
     /// A vector fixed to the body, in its axes.
@@ -278,66 +225,14 @@ impl<S: Scalar> JointFrame<S> {
         Twist { angular: self.to_body(angular), linear }
     }
 
-    /// A symmetric tensor of the body's axes, in the parent's.
-    #[inline(always)]
-    pub fn tensor_to_parent(&self, tensor: Sym3<S>) -> Sym3<S> {
-        match self.columns {
-            Some(columns) => {
-                let rotation = columns.transpose();
-                let full = tensor.full();
-                let half = Mat3::from_fn(|i, j| full.fused_product(Vec3(rotation.0[i]))[j]);
-                Sym3::from_upper(|i, j| rotation.fused_product(Vec3(half.0[i]))[j])
-            }
-            None => {
-                rotated_tensor(self.parent_rotation, rotated_tensor(self.rotation_about_z, tensor).rotated(self.fixed))
-            }
-        }
-    }
-
-    /// A general tensor of the body's axes, in the parent's.
-    #[inline(always)]
-    pub fn matrix_to_parent(&self, matrix: Mat3<S>) -> Mat3<S> {
-        if let Some(columns) = self.columns {
-            let rotation = columns.transpose();
-            return rotation * (matrix * rotation.transpose());
-        }
-        let rows = matrix.map_rows(|row| self.to_parent(row)).transpose();
-        rows.map_rows(|column| self.to_parent(column)).transpose()
-    }
-
     /// Moments of mass about the body's origin, in the parent's axes and about the parent's origin.
     #[inline(always)]
     pub fn inertia_to_parent(&self, inertia: PseudoInertia<S>) -> PseudoInertia<S> {
         PseudoInertia {
             mass: inertia.mass,
             moment: self.to_parent(inertia.moment),
-            second: self.tensor_to_parent(inertia.second),
+            second: self.rotation.tensor_to_parent(inertia.second),
         }
         .translated(self.position)
     }
-}
-
-/// The product of a matrix, given by its columns, and a vector.
-#[inline(always)]
-fn product_by_columns<S: Scalar>(columns: Mat3<S>, v: Vec3<S>) -> Vec3<S> {
-    let Mat3([x, y, z]) = columns.apart();
-    Vec3::from_fn(|i| z[i].mul_add(v[2], y[i].mul_add(v[1], x[i] * v[0])))
-}
-
-#[inline(always)]
-fn rotated<S: Scalar>(rotation: Option<RotationAboutZ<S>>, v: Vec3<S>) -> Vec3<S> {
-    match rotation {
-        Some((cos, sin)) => Vec3([cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]]),
-        None => v,
-    }
-}
-
-#[inline(always)]
-fn rotated_back<S: Scalar>(rotation: Option<RotationAboutZ<S>>, v: Vec3<S>) -> Vec3<S> {
-    rotated(rotation.map(|(cos, sin)| (cos, -sin)), v)
-}
-
-#[inline(always)]
-fn rotated_tensor<S: Scalar>(rotation: Option<RotationAboutZ<S>>, tensor: Sym3<S>) -> Sym3<S> {
-    rotation.map_or(tensor, |(cos, sin)| tensor.rotated_about_z(cos, sin))
 }

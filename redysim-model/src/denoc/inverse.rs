@@ -42,7 +42,8 @@ impl<S: Scalar> BodyMotion<S> {
     fn across(self, (w, carried): Carried<S>, frame: &JointFrame<S>, joint: Joint, v: &[S], a: &[S]) -> Self {
         let acceleration = joint.added(carried + joint.bias(w, v), a);
         let Twist { angular: w, .. } = joint.added(Twist { angular: w, linear: Vec3::zero() }, v);
-        let Some((image, about)) = frame.axis_image(self.angular_acceleration_tensor).zip(joint.screw(0).turn(a[0]))
+        let Some((image, about)) =
+            frame.rotation.axis_image(self.angular_acceleration_tensor).zip(joint.screw(0).turn(a[0]))
         else {
             return Self::new(w, acceleration.angular, acceleration.linear);
         };
@@ -227,7 +228,9 @@ fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
         let parent = body.parent.map_or(still, |parent| motions[parent]);
         let carried = match body.parent {
             Some(_) => parent.carried(frame),
-            None => (Vec3::zero(), Twist { angular: Vec3::zero(), linear: frame.ground_to_body(-tree.gravity) }),
+            None => {
+                (Vec3::zero(), Twist { angular: Vec3::zero(), linear: frame.rotation.ground_to_body(-tree.gravity) })
+            }
         };
         let v = &v[body.v.clone()];
         if let Accelerations::Opposing(a) = &mut a {

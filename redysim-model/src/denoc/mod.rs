@@ -32,6 +32,7 @@ mod mass_matrix;
 mod mimic;
 mod momentum;
 mod passive;
+mod rotation;
 mod springs;
 mod task_frames;
 mod trace;

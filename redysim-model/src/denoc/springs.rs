@@ -104,8 +104,10 @@ impl<S: Scalar> Springs<S> {
         for (levers, mut line) in [(of_a, -line), (of_b, line)] {
             for Lever { body, freedom, arm, value } in levers.iter_mut().rev() {
                 let (frame, screw) = (&frames[*body], tree.bodies[*body].joint.screw(*freedom));
-                *value =
-                    screw.project_along(frame.axis(screw.axis), Wrench { moment: arm.fused_cross(line), force: line });
+                *value = screw.project_along(
+                    frame.rotation.axis(screw.axis),
+                    Wrench { moment: arm.fused_cross(line), force: line },
+                );
                 if *freedom == 0 {
                     line = frame.to_body(line);
                 }
