@@ -50,11 +50,11 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
     frames.clear();
     frames.reserve(tree.bodies.len());
     trace.sweep("frames", tree.outward(), |index| {
-        let (body, AxisPosition { angle, displacement, in_space }) = (&tree.bodies[index], positions[index]);
+        let (body, AxisPosition { angle, displacement, in_space }) = (&tree.bodies[index], &positions[index]);
         // Only loaded where there is one: loading it waits for the stores of the parent's frame.
         let parent = body.parent.filter(|&parent| tree.bodies[parent].merged_parallel);
         let parent = parent.and_then(|parent| frames[parent].body_rotation);
-        let joint_rotation = angle.map(|Angle { value, is_sum, rotation }| {
+        let joint_rotation = angle.as_ref().map(|&Angle { value, is_sum, rotation }| {
             let (cos, sin) = rotation.unwrap_or_else(|| {
                 let (sin, cos) = value.sin_cos();
                 (cos, sin)
@@ -70,19 +70,19 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         let parent_rotation = parent.filter(|_| !body.is_parallel());
         if let Some((orientation, displacement)) = in_space {
             if let Some(displacement) = displacement {
-                position = position + rotated(parent_rotation, fixed.fused_product(displacement));
+                position = position + rotated(parent_rotation, fixed.fused_product(*displacement));
             }
-            fixed = fixed * quaternion::rotation(orientation);
+            fixed = fixed * quaternion::rotation(*orientation);
         }
         if let Some(displacement) = displacement {
-            position = position + rotated(parent_rotation, fixed.column(2)).scale(displacement);
+            position = position + rotated(parent_rotation, fixed.column(2)).scale(*displacement);
         }
         let selects_column = body.joint.is_on_axis()
             && parent_rotation.is_none()
             && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
         let (rotation_about_z, body_rotation) =
             if body.merged_parallel { (None, joint_rotation) } else { (joint_rotation, None) };
-        let in_space = in_space.map(|(orientation, _)| (rotation, orientation));
+        let in_space = in_space.as_ref().map(|(orientation, _)| (rotation, *orientation));
         let factors = RotationFactors { parent_rotation, fixed, rotation_about_z, selects_column, in_space };
         let rotation = if T::WHOLE_ROTATIONS {
             FrameRotation::Columns(factors.columns())
