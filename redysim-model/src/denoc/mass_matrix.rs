@@ -8,7 +8,7 @@ use crate::joint::{MOST_FREEDOMS, Screw, across};
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Vec3, Wrench};
-use crate::tree::Tree;
+use crate::tree::{Body, Tree};
 use redysim_runtime::Scalar;
 
 /// M(q), by rows: element (i, j) is the force on joint i for a unit acceleration of joint j.
@@ -75,28 +75,26 @@ fn mass_matrix_of_all_in<S: Scalar, P: ParameterIn<S>>(
             let carried = composite.to_parent(&frames[index], planar[index]);
             composites[parent] = composites[parent].plus(&carried);
         }
-        for (column, &wrench) in body.v.clone().zip(&columns) {
-            let mut wrench = wrench;
-            let mut at = index;
-            loop {
-                let joint = &tree.bodies[at];
-                for (row, screw) in joint.v.clone().zip(joint.joint.screws()) {
-                    // Of the body's own freedoms, each pair once.
-                    if at == index && row > column {
-                        break;
-                    }
-                    let mut element = screw.project(wrench);
-                    let physics = body.physics.as_ref().filter(|_| row == column);
-                    let armature = physics.and_then(|physics| physics.armature(column - body.v.start));
-                    if let Some(armature) = armature {
-                        element += armature;
-                    }
-                    matrix[column * nv + row] = element;
-                    matrix[row * nv + column] = element;
+        for (velocity, (column, &own)) in body.v.clone().zip(&columns).enumerate() {
+            // Of the body's own velocities, each pair once.
+            for (row, screw) in body.v.clone().zip(body.joint.screws()).take(velocity + 1) {
+                let mut element = screw.project(own);
+                let physics = body.physics.as_ref().filter(|_| row == column);
+                if let Some(armature) = physics.and_then(|physics| physics.armature(velocity)) {
+                    element += armature;
                 }
-                let Some(parent) = joint.parent else { break };
+                matrix[column * nv + row] = element;
+                matrix[row * nv + column] = element;
+            }
+            let (mut at, mut wrench) = (index, own);
+            while let Some(parent) = tree.bodies[at].parent {
                 wrench = frames[at].wrench_to_parent(wrench);
                 at = parent;
+                let Body { joint, v: rows, .. } = &tree.bodies[at];
+                joint.project(wrench, &mut matrix[column * nv..][rows.clone()]);
+                for row in rows.clone() {
+                    matrix[row * nv + column] = matrix[column * nv + row];
+                }
             }
         }
     }

@@ -13,10 +13,15 @@ use redysim_runtime::Scalar;
 pub const COORDINATE_NAMES: &[&str] = &["x", "y", "z", "qx", "qy", "qz", "qw"];
 pub const VELOCITY_NAMES: &[&str] = &["vx", "vy", "vz", "wx", "wy", "wz"];
 
-#[inline]
-pub fn screw(velocity: usize) -> Screw {
-    if velocity < 3 { Screw::translation(velocity) } else { Screw::rotation(velocity - 3) }
-}
+/// The motion subspace.
+pub const SCREWS: [Screw; 6] = [
+    Screw::translation(0),
+    Screw::translation(1),
+    Screw::translation(2),
+    Screw::rotation(0),
+    Screw::rotation(1),
+    Screw::rotation(2),
+];
 
 #[inline]
 pub fn position<S: Scalar>(q: &[S]) -> JointPosition<S> {

@@ -6,7 +6,7 @@
 //! | item | what it is |
 //! |---|---|
 //! | `position` | where the body is at given coordinates, a [`JointPosition`] |
-//! | `SCREW`, or a function | the motion subspace S in the body's frame: a [`Screw`] for each velocity |
+//! | `SCREW`, `SCREWS`, or a function | the motion subspace S in the body's frame: a [`Screw`] for each velocity |
 //! | `split` | which inertia of the body its parent may carry as well, with the same joint forces |
 //! | `meets` | which inertia alone makes the joint's diagonal element of the mass matrix positive |
 //!
@@ -230,9 +230,10 @@ impl Joint {
     /// Sᵀ w, the joint forces of a wrench.
     #[inline(always)]
     pub fn project<S: Scalar>(self, wrench: Wrench<S>, tau: &mut [S]) {
-        for (i, tau) in tau.iter_mut().enumerate() {
-            // One at a time: vectors of the few velocities of a joint take longer to put together than they save.
-            [*tau] = S::apart([self.screw(i).project(wrench)]);
+        match self {
+            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => project_on([self.screw(0)], wrench, tau),
+            Joint::Spherical => project_on(spherical::SCREWS, wrench, tau),
+            Joint::Free => project_on(free::SCREWS, wrench, tau),
         }
     }
 
@@ -243,8 +244,8 @@ impl Joint {
             Joint::Revolute => revolute::SCREW,
             Joint::Prismatic => prismatic::SCREW,
             Joint::Helical { pitch } => helical::screw(pitch),
-            Joint::Spherical => spherical::screw(velocity),
-            Joint::Free => free::screw(velocity),
+            Joint::Spherical => spherical::SCREWS[velocity],
+            Joint::Free => free::SCREWS[velocity],
         }
     }
 
@@ -293,6 +294,17 @@ impl Joint {
             Joint::Revolute | Joint::Spherical => Some(self),
             Joint::Prismatic | Joint::Free => None,
             Joint::Helical { pitch } => Some(Joint::Helical { pitch: pitch / unit }),
+        }
+    }
+}
+
+/// The joint forces of a wrench along `screws`, which the compiler knows if it unrolls this loop.
+#[inline(always)]
+fn project_on<S: Scalar, const N: usize>(screws: [Screw; N], wrench: Wrench<S>, tau: &mut [S]) {
+    if let Some(tau) = tau.first_chunk_mut::<N>() {
+        for i in 0..N {
+            // One at a time: vectors of the few velocities of a joint take longer to put together than they save.
+            [tau[i]] = S::apart([screws[i].project(wrench)]);
         }
     }
 }

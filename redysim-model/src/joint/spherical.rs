@@ -12,10 +12,8 @@ use redysim_runtime::Scalar;
 pub const COORDINATE_NAMES: &[&str] = &["qx", "qy", "qz", "qw"];
 pub const VELOCITY_NAMES: &[&str] = &["wx", "wy", "wz"];
 
-#[inline]
-pub fn screw(velocity: usize) -> Screw {
-    Screw::rotation(velocity)
-}
+/// The motion subspace.
+pub const SCREWS: [Screw; 3] = [Screw::rotation(0), Screw::rotation(1), Screw::rotation(2)];
 
 #[inline]
 pub fn position<S: Scalar>(q: &[S]) -> JointPosition<S> {
