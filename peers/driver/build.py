@@ -44,8 +44,8 @@ def runs_v3() -> bool:
 
 def runnable() -> list[Program]:
     """The programs that can be had of this redysim on this processor."""
-    lanes, v3 = has_lanes(), runs_v3()
-    return [p for p in PROGRAMS if (lanes or not (p.ours and p.lanes > 1)) and (v3 or not p.v3)]
+    lanes, cpuinfo = has_lanes(), processor.cpuinfo()
+    return [p for p in PROGRAMS if p.runs_on(cpuinfo) and (lanes or not (p.ours and p.lanes > 1))]
 
 
 def _stamp(target: Path) -> Path:

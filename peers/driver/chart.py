@@ -20,7 +20,7 @@ SCALAR = {
     "native_f64": "#d1495b",
     "native_f32": "#8c2f39",
 }
-LANES = {"cppadcodegen_x8": "#3d7ea6", "f64x8": "#d1495b", "f32x16": "#8c2f39"}
+LANES = {"cppadcodegen_x8": "#3d7ea6", "f64x8": "#d1495b", "f32x16": "#8c2f39", "f64x4": "#d1495b", "f32x8": "#8c2f39"}
 WIDTH, LEFT, RIGHT = 1120, 70, 20
 PANEL, GAP, LEGEND = 250, 74, 62
 

@@ -47,6 +47,10 @@ def runs_v3(text: str) -> bool:
     return V3 <= set(fields(text).get("flags", "").split())
 
 
+def has_avx512(text: str) -> bool:
+    return "avx512f" in fields(text).get("flags", "").split()
+
+
 def name(about: dict[str, str]) -> str:
     """The brand without what every brand has, with the microarchitecture where that is known."""
     brand, kind = _plain(about.get("model name", "")), _microarchitecture(about)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+import processor
 from robots import FREE
 
 FUNCTIONS = {"inverse": "inverse dynamics", "forward": "forward dynamics", "mass": "mass matrix"}
@@ -33,8 +34,14 @@ class Program:
     ours: bool = False
     # Whether it runs on processors with AVX2 and FMA alone.
     v3: bool = False
+    # Whether it is for processors with AVX-512 alone, or for those without.
+    avx512: bool | None = None
     # Whether it computes the result; otherwise it writes as many zeros.
     computes: bool = True
+
+    def runs_on(self, cpuinfo: str) -> bool:
+        v3 = processor.runs_v3(cpuinfo) or not self.v3
+        return v3 and self.avx512 in (None, processor.has_avx512(cpuinfo))
 
     def takes(self, robot: str) -> bool:
         return self.robots is None or robot in self.robots
@@ -52,6 +59,11 @@ GENERATED = "generated/{robot}/{function}"
 
 def _ours(key: str, label: str, library: str, symbol: str, **more) -> Program:
     return Program(key, label, library, symbol, "toml", ours=True, **more)
+
+
+def _in_lanes(scalar: str, lanes: int, avx512: bool) -> Program:
+    key, label, more = f"{scalar}x{lanes}", f"redysim, {scalar} × {lanes}", {"scalar": scalar, "avx512": avx512}
+    return _ours(key, label, NATIVE, "{robot}_{function}_" + key, lanes=lanes, robots=tuple(LANED), **more)
 
 
 PROGRAMS = [
@@ -94,16 +106,11 @@ PROGRAMS = [
         robots=tuple(LANED),
         computes=False,
     ),
-    _ours("f64x8", "redysim, f64 × 8", NATIVE, "{robot}_{function}_f64x8", lanes=8, robots=tuple(LANED)),
-    _ours(
-        "f32x16",
-        "redysim, f32 × 16",
-        NATIVE,
-        "{robot}_{function}_f32x16",
-        scalar="f32",
-        lanes=16,
-        robots=tuple(LANED),
-    ),
+    # As many lanes as the processor's vectors have.
+    _in_lanes("f64", 8, avx512=True),
+    _in_lanes("f32", 16, avx512=True),
+    _in_lanes("f64", 4, avx512=False),
+    _in_lanes("f32", 8, avx512=False),
 ]
 BY_KEY = {program.key: program for program in PROGRAMS}
 PEERS = [program for program in PROGRAMS if not program.ours]

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from programs import FUNCTIONS, PEERS, SPECIAL
+from programs import BY_KEY, FUNCTIONS, PEERS, SPECIAL
 from robots import FREE
 from results import Times
 
@@ -58,7 +58,7 @@ def outcomes(times: Times) -> list[Outcome]:
                 apart = None
                 if spread and ratio is not None:
                     apart = min(EXCUSED, max(times.spread(program, robot, function) for program in [*peers, ours]))
-                bound = times.ratio(peers, "written_x8", robot, function) if ours == "f64x8" else None
+                bound = times.ratio(peers, "written_x8", robot, function) if BY_KEY[ours].lanes > 1 else None
                 found.append(Outcome(asked, robot, function, least, ratio, stretch, apart, bound))
 
     every, small = list(FUNCTIONS), ["kr5", "gripper"]
@@ -67,24 +67,13 @@ def outcomes(times: Times) -> list[Outcome]:
     ask("f64, against Pinocchio", ["kr5"], every, ["pinocchio"], "native_f64", 10.0)
     ask("f64, against redysim for x86-64-v3", small, every, ["v3_f64"], "native_f64", 1.0, spread=True)
     ask("f64 for any x86-64, against the fastest peer's native build", small, every, all_peers, "baseline_f64", 1.0)
-    ask(
-        "f64 × 8, per state, against CppADCodeGen's 8-state code",
-        SPECIAL,
-        every,
-        ["cppadcodegen_x8"],
-        "f64x8",
-        1.6,
-        2.0,
-    )
+    for lanes in (8, 4):
+        against = f"f64 × {lanes}, per state, against CppADCodeGen's 8-state code"
+        ask(against, SPECIAL, every, ["cppadcodegen_x8"], f"f64x{lanes}", 1.6, 2.0)
     ask("f64, 30-joint tree, against CppADCodeGen", ["humanoid30"], every, ["cppadcodegen"], "native_f64", 1.8)
     ask("f64, free base, against the faster of CppADCodeGen and CasADi", FREE, every, generators, "native_f64", 3.0)
     ask("f64, free base, against Pinocchio", FREE, every, ["pinocchio"], "native_f64", 10.0)
-    ask(
-        "f64 × 8, free base, per state, against CppADCodeGen's 8-state code",
-        FREE,
-        every,
-        ["cppadcodegen_x8"],
-        "f64x8",
-        2.0,
-    )
+    for lanes in (8, 4):
+        against = f"f64 × {lanes}, free base, per state, against CppADCodeGen's 8-state code"
+        ask(against, FREE, every, ["cppadcodegen_x8"], f"f64x{lanes}", 2.0)
     return found

@@ -8,6 +8,7 @@ from pathlib import Path
 import processor
 import report
 import results
+from programs import PROGRAMS
 from requirements import outcomes
 
 XEON = "Intel(R) Xeon(R) Processor @ 2.50GHz"
@@ -44,6 +45,14 @@ class Processors(unittest.TestCase):
         flags = "avx avx2 bmi1 bmi2 f16c fma abm movbe xsave"
         self.assertTrue(processor.runs_v3(cpuinfo("GenuineIntel", 6, 85, 7, XEON, flags)))
         self.assertFalse(processor.runs_v3(cpuinfo("GenuineIntel", 6, 85, 7, XEON, flags.replace("fma ", ""))))
+
+    def test_several_states_are_computed_by_vectors_that_the_processor_has(self):
+        def lanes(flags: str) -> list[str]:
+            text = cpuinfo("AuthenticAMD", 25, 1, 1, "AMD EPYC", flags)
+            return [p.key for p in PROGRAMS if p.ours and p.lanes > 1 and p.runs_on(text)]
+
+        self.assertEqual(lanes("avx2 fma avx512f"), ["f64x8", "f32x16"])
+        self.assertEqual(lanes("avx2 fma"), ["f64x4", "f32x8"])
 
 
 class Runs(unittest.TestCase):
@@ -82,6 +91,8 @@ class Runs(unittest.TestCase):
             "cppadcodegen anymal inverse": [29.0],
             "pinocchio anymal inverse": [101.0],
             "f64x8 talos mass": [3.0],
+            "f64x4 talos forward": [4.0],
+            "cppadcodegen_x8 talos forward": [7.0],
             "cppadcodegen_x8 talos mass": [6.0],
         }
         found = outcomes(results.Times(run("A", "", times)))
@@ -92,6 +103,7 @@ class Runs(unittest.TestCase):
                 ("anymal", "inverse", 3.0): (2.9, "**no**"),
                 ("anymal", "inverse", 10.0): (10.1, "yes"),
                 ("talos", "mass", 2.0): (2.0, "yes"),
+                ("talos", "forward", 2.0): (1.75, "**no**"),
             },
         )
 

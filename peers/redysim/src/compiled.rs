@@ -38,19 +38,27 @@ scalars!(
     "anymal" Anymal, "talos" Talos
 );
 
-/// Eight or sixteen states per call. They lie value by value (the first coordinate of all states, then the second), so
-/// that a lane is a state and the timer's memory holds lanes as they are.
+/// As many states per call as the target's vectors have lanes. They lie value by value (the first coordinate of all states,
+/// then the second), so that a lane is a state and the timer's memory holds lanes as they are.
 #[cfg(feature = "lanes")]
 mod lanes {
-    use redysim::lanes::{F32x16, F64x8};
-
     use super::*;
+    #[cfg(not(target_feature = "avx512f"))]
+    use redysim::lanes::{F32x8, F64x4};
+    #[cfg(target_feature = "avx512f")]
+    use redysim::lanes::{F32x16, F64x8};
 
     macro_rules! lanes {
         ($($name:literal $Robot:ident),*) => {
             $(
+                #[cfg(target_feature = "avx512f")]
                 compiled!($name $Robot, "f64x8" F64x8);
+                #[cfg(target_feature = "avx512f")]
                 compiled!($name $Robot, "f32x16" F32x16);
+                #[cfg(not(target_feature = "avx512f"))]
+                compiled!($name $Robot, "f64x4" F64x4);
+                #[cfg(not(target_feature = "avx512f"))]
+                compiled!($name $Robot, "f32x8" F32x8);
             )*
         };
     }
