@@ -4,6 +4,9 @@
 //! `f64` and 16 × `f32`, AVX half of that, SSE2 and NEON a quarter), else by a few. Each lane holds the bits that the
 //! same operations on plain numbers would give.
 //!
+//! Choose a type as wide as the target's vectors. Code for a wider one takes several registers for each value, and so keeps
+//! more of them in memory. `batch` chooses by itself.
+//!
 //! ```
 //! use redysim_runtime::Scalar;
 //! use redysim_runtime::lanes::F64x8;
