@@ -48,6 +48,7 @@ def runs_v3(text: str) -> bool:
 
 
 def has_avx512(text: str) -> bool:
+    """Whether its vectors have 512 bits."""
     return "avx512f" in fields(text).get("flags", "").split()
 
 
