@@ -52,3 +52,11 @@ export async function drag(page, selector, value) {
     slider.dispatchEvent(new Event("input"));
   }, value);
 }
+
+/** Makes the window as narrow as a telephone, looks whether the page fits, and leaves a screenshot at `path`. */
+export async function aNarrowPageFits(page, path) {
+  await page.setViewportSize({ width: 390, height: 844 });
+  const [width, wide] = await page.evaluate(() => [innerWidth, document.documentElement.scrollWidth]);
+  assert.ok(wide <= width, `a narrow page must not scroll sideways, but is ${wide} wide in ${width}`);
+  await page.screenshot({ path });
+}

@@ -9,7 +9,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
-import { drag, GL, inBrowser, NO_GL } from "./browser.mjs";
+import { aNarrowPageFits, drag, GL, inBrowser, NO_GL } from "./browser.mjs";
 
 /** The page computes the links from the joints as the command does, but for rounding. */
 const TOLERANCE = 1e-9;
@@ -30,11 +30,7 @@ await inBrowser(show, GL, { width: 1280, height: 800 }, async (page) => {
   await page.screenshot({ path: join(folder, "dragged.png") });
   await everyLayerCanBeHidden(page);
   await theButtonLeadsBackToTheStart(page);
-});
-await inBrowser(show, GL, { width: 390, height: 844 }, async (page) => {
-  const [width, wide] = await page.evaluate(() => [innerWidth, document.documentElement.scrollWidth]);
-  assert.ok(wide <= width, `a narrow page must not scroll sideways, but is ${wide} wide in ${width}`);
-  await page.screenshot({ path: join(folder, "narrow.png") });
+  await aNarrowPageFits(page, join(folder, "narrow.png"));
 });
 await inBrowser(show, NO_GL, { width: 1280, height: 800 }, (page) => slidersMoveTheLinks(page, false), /WebGL/);
 console.log(`${folder}: the page does what it must`);
