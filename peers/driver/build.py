@@ -65,8 +65,6 @@ class Builder:
         ]
 
     def everything(self, names: list[str]) -> None:
-        self.built.mkdir(parents=True, exist_ok=True)
-        self._timer()
         self.redysim()
         self._dynibo()
         self._mujoco()
@@ -122,6 +120,9 @@ class Builder:
             imported.write(name, target / "release/redysim", self.packages, self.built)
 
     def redysim(self) -> None:
+        """All but the peers."""
+        self.built.mkdir(parents=True, exist_ok=True)
+        self._timer()
         self._imported()
         features = ["--features", "lanes"] if has_lanes() else []
         self._cargo("redysim", "native", "-C target-cpu=native", features)

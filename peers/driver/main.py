@@ -87,6 +87,7 @@ def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
         "partial": len(names) < len(robots.NAMES),
         **({"part": chosen.keep_as} if chosen.keep_as else {}),
         "pinned": results.pinned,
+        "in_turns": True,
         **report.made_with(),
         "times": stored.recorded(results.times),
         "tasks": tasks,

@@ -13,11 +13,12 @@ from programs import FUNCTIONS, REFERENCE, Program
 # Enough that no result can be foreseen, and few enough that those of KR5 lie in the innermost cache.
 STATES = 256
 REPETITIONS = 3
-# A measurement during which the calibration loop was so much slower than at its fastest is taken again.
+# A measurement during which the calibration loop was so much slower than at its fastest counts as disturbed; one in which more
+# than half of the programs were disturbed is taken again.
 DISTURBED = 1.05
-AGAIN = 4
-# What the timer ends with where other programs keep taking the core.
-INTERRUPTED = 4
+AGAIN = 2
+# What the timer has for a program where others kept taking the core.
+INTERRUPTED = "interrupted"
 # Deviations are relative to the component, or to this part of the state's largest one if that is more.
 FLOOR = {"f64": 1e-6, "f32": 1e-2}
 
@@ -98,20 +99,15 @@ class Bench:
     def robot(self, name: str) -> robot_files.Robot:
         return robot_files.read(robot_files.path(name, "txt", self.built))
 
-    def command(self, mode: str, program: Program, robot: str, function: str, states: Path) -> list[str]:
+    def command(self, mode: str, programs: list[Program], robot: str, function: str, states: Path) -> list[str]:
         known = self.robot(robot)
-        return [
-            str(self.built / "timer"),
-            mode,
-            str(program.library_of(self.built, robot, function)),
-            program.symbol_of(robot, function),
-            str(robot_files.path(robot, program.robot_file, self.built)),
-            str(states),
-            program.scalar,
-            str(program.lanes),
-            str(known.nq + 2 * known.nv),
-            str(known.nv * known.nv if function == "mass" else known.nv),
-        ]
+        outputs = known.nv * known.nv if function == "mass" else known.nv
+        command = [str(self.built / "timer"), mode, str(states), str(known.nq + 2 * known.nv), str(outputs)]
+        for program in programs:
+            library, symbol = program.library_of(self.built, robot, function), program.symbol_of(robot, function)
+            robot_file = robot_files.path(robot, program.robot_file, self.built)
+            command += [str(library), symbol, str(robot_file), program.scalar, str(program.lanes)]
+        return command
 
     def write_states(self, robot: str, states: numpy.ndarray, name: str = "states") -> Path:
         path = robot_files.path(robot, name, self.built)
@@ -128,7 +124,7 @@ class Bench:
         k = program.gravity / 9.81
         scale = numpy.repeat([1, numpy.sqrt(k), k], [known.nq, known.nv, known.nv])
         states = self.states(robot)[:, columns] * scale
-        command = self.command("check", program, robot, function, self.write_states(robot, states, "checked"))
+        command = self.command("check", [program], robot, function, self.write_states(robot, states, "checked"))
         ran = subprocess.run(command, capture_output=True)
         if ran.returncode != 0:
             raise Refused(ran.stderr.decode().strip() or f"the program ended with {ran.returncode}")
@@ -167,7 +163,7 @@ class Bench:
         return program.takes(robot) and program.library_of(self.built, robot, function).exists()
 
     def time(self, programs: list[Program], names: list[str], results: Results) -> None:
-        """All programs at one robot's function after another, in an order that turns with each repetition."""
+        """All programs at one robot's function in turns, in an order that turns with each repetition."""
         agreed = {(d.program, d.robot, d.function) for d in results.deviations if d.largest <= d.allowed}
 
         def is_ready(program: Program, robot: str, function: str) -> bool:
@@ -183,69 +179,60 @@ class Bench:
                 for function in FUNCTIONS:
                     ready = [p for p in programs if is_ready(p, robot, function)]
                     turn = repetition * len(ready) // REPETITIONS
-                    for program in ready[turn:] + ready[:turn]:
-                        command = self.command("time", program, robot, function, states)
-                        try:
-                            time = self.measured(command, results)
-                        except Interrupted as interrupted:
-                            what = f"{program.label}, {robot}, {FUNCTIONS[function]}"
-                            results.refused.append(f"repetition {repetition + 1} of {what}: {interrupted}")
+                    ready = ready[turn:] + ready[:turn]
+                    measured = self.measured(self.command("time", ready, robot, function, states), results)
+                    for program, time in zip(ready, measured):
+                        if time is None:
+                            what = f"repetition {repetition + 1} of {program.label}, {robot}, {FUNCTIONS[function]}"
+                            results.refused.append(f"{what}: other programs kept taking the core")
                             continue
                         results.times.setdefault((program.key, robot, function), []).append(time)
 
-    def measured(self, command: list[str], results: Results) -> float:
-        """ns per state; taken again while the calibration loop says that something else slows the core."""
-        best = (float("inf"), float("inf"))
+    def measured(self, command: list[str], results: Results) -> list[float | None]:
+        """ns per state of each program of a command, `None` where others kept taking the core; taken again while the
+        calibration loop says that something else slows the core."""
+        best: list[tuple[float, float | None]] = []
         for _ in range(AGAIN + 1):
             ran = subprocess.run([*self.prefix, *command], capture_output=True, text=True)
-            if ran.returncode == INTERRUPTED:
-                continue
             if ran.returncode != 0:
                 raise SystemExit(f"peers: timing failed: {ran.stderr.strip()}\n  {' '.join(command)}")
-            time, calibration = (float(word) for word in ran.stdout.split())
-            self.fastest = min(self.fastest, calibration)
-            best = min(best, (calibration, time))
-            if calibration <= DISTURBED * self.fastest:
+            found = [_measurement(line) for line in ran.stdout.splitlines()]
+            best = [min(pair) for pair in zip(best, found)] if best else found
+            self.fastest = min([self.fastest, *(calibration for calibration, _ in found)])
+            disturbed = sum(calibration > DISTURBED * self.fastest for calibration, _ in best)
+            if 2 * disturbed <= len(best):
                 break
-        else:
-            if best[1] == float("inf"):
-                raise Interrupted("other programs kept taking the core")
-            results.disturbed += 1
-        results.calibrations.append(best[0])
-        return best[1]
+        results.disturbed += disturbed
+        results.calibrations += [calibration for calibration, time in best if time is not None]
+        return [time for _, time in best]
 
     def tasks(self, results: Results) -> dict[str, float]:
         """ns that each of ReDySim's own tasks takes."""
-        found = {}
-        for symbol in ("task_inverse", "task_fall"):
-            try:
-                found[symbol] = float(f"{self._task(symbol, results):.5g}")
-            except Interrupted as interrupted:
-                results.refused.append(f"ReDySim's own `{symbol}`: {interrupted}")
-        return found
-
-    def _task(self, symbol: str, results: Results) -> float:
         states = robot_files.path("gripper", "states", self.built)
         robot = robot_files.path("gripper", "toml", self.built)
         library = REFERENCE.library_of(self.built, "gripper", "inverse")
-        command = [
-            str(self.built / "timer"),
-            "time",
-            str(library),
-            symbol,
-            str(robot),
-            str(states),
-            "f64",
-            "1",
-            "12",
-            "404",
-        ]
-        return float(numpy.median([self.measured(command, results) for _ in range(REPETITIONS)]))
+        symbols = ["task_inverse", "task_fall"]
+        command = [str(self.built / "timer"), "time", str(states), "12", "404"]
+        for symbol in symbols:
+            command += [str(library), symbol, str(robot), "f64", "1"]
+        repetitions = [self.measured(command, results) for _ in range(REPETITIONS)]
+        found = {}
+        for symbol, times in zip(symbols, zip(*repetitions)):
+            if None in times:
+                results.refused.append(f"ReDySim's own `{symbol}`: other programs kept taking the core")
+            else:
+                found[symbol] = float(f"{numpy.median(times):.5g}")
+        return found
+
+
+def _measurement(line: str) -> tuple[float, float | None]:
+    """Of a program: ns of the calibration loop and per state."""
+    if line.startswith(INTERRUPTED):
+        return float("inf"), None
+    time, calibration = (float(word) for word in line.split())
+    return calibration, time
 
 
 class Refused(Exception):
     """A program that does not take a robot."""
 
-
-class Interrupted(Exception):
-    """A measurement for which the core was never free for long enough."""

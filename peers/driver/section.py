@@ -76,7 +76,7 @@ def _times(times: Times, run: dict) -> str:
             rows.append([f"**{program.label}**" if program.key == "native_f64" else program.label, *cells])
         parts.append(table([function_title, *(TITLES[name] for name in names)], rows))
     if "steadiness" in run:
-        parts.append(_steadiness(run["steadiness"]))
+        parts.append(_steadiness(run))
     left_out = [f"Not built, since the compiler takes too long: {what}." for what in run.get("skipped", [])]
     left_out += [f"Not taken: {what}." for what in run.get("refused", [])]
     if left_out:
@@ -84,10 +84,12 @@ def _times(times: Times, run: dict) -> str:
     return "\n".join(parts)
 
 
-def _steadiness(found: dict) -> str:
+def _steadiness(run: dict) -> str:
+    found = run["steadiness"]
+    turns = "All programs took turns" if run.get("in_turns") else "Each program was timed in a process of its own"
     spread, loop = found["spread"], {key: ns / 1e3 for key, ns in found["calibration_ns"].items()}
     return paragraph(
-        f"Medians of {found['repetitions']} repetitions. Between repetitions a time changes by "
+        f"{turns}; medians of {found['repetitions']} repetitions. Between repetitions a time changes by "
         f"{100 * spread['median']:.1f} % in the middle, {100 * spread['largest']:.0f} % at most. The calibration loop "
         f"beside them took {loop['fastest']:.1f} µs at its fastest, {loop['median']:.1f} in the middle, "
         f"{loop['slowest']:.1f} at its slowest; {found['disturbed']} of {found['measurements']} measurements stayed "

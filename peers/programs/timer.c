@@ -1,13 +1,13 @@
-// Calls one function of one library at the states of a file, and either writes what it returns, or times it.
+// Calls functions of libraries at the states of a file, and either writes what one returns, or times all of them in turns.
 //
-//   timer check LIBRARY SYMBOL ROBOT STATES SCALAR LANES INPUTS OUTPUTS    results to standard output, binary
-//   timer time  LIBRARY SYMBOL ROBOT STATES SCALAR LANES INPUTS OUTPUTS    "ns-per-state calibration-ns" as text
+//   timer check STATES INPUTS OUTPUTS PROGRAM       results to standard output, binary
+//   timer time  STATES INPUTS OUTPUTS PROGRAM ..    "ns-per-state calibration-ns" as text, a line for each program
 //
-// Every program under comparison is a library with functions `const T *function(const T *state, T *result)`, T `double`
-// (SCALAR f64) or `float` (f32). It returns where the result stands: in `result`, or in memory of its own. With LANES
-// above 1, a call takes that many states at once, value by value: x1 of all states, then x2 of all. A library may have
-// `int prepare(const char *robot)`, called first, and `SYMBOL_result`, called only in a check, for results that its
-// users would not usually ask for in this form.
+// A PROGRAM is five arguments: LIBRARY SYMBOL ROBOT SCALAR LANES. Every program under comparison is a library with functions
+// `const T *function(const T *state, T *result)`, T `double` (SCALAR f64) or `float` (f32). It returns where the result
+// stands: in `result`, or in memory of its own. With LANES above 1, a call takes that many states at once, value by value:
+// x1 of all states, then x2 of all. A library may have `int prepare(const char *robot)`, called first, and `SYMBOL_result`,
+// called only in a check, for results that its users would not usually ask for in this form.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdint.h>
@@ -19,9 +19,20 @@
 
 typedef const void *(*Function)(const void *state, void *result);
 
-// Batches are short, so that few of them are interrupted. The calibration loop runs before each one.
+// Batches are short, so that few of them are interrupted, and so that all programs meet the same machine. The calibration loop
+// runs between them.
 static const double batch_ns = 4e5;
-enum { batches = 41, attempts = 20 * batches, calibration_steps = 20000 };
+// Of the batches of a program, those count between whose calibration loops the core was most its own.
+enum { batches = 160, quietest = batches / 4, attempts = 10 * batches, calibration_steps = 20000, warming_calls = 32 };
+
+typedef struct {
+  Function function, result_of;
+  char *states;
+  long calls, lanes, passes;
+  size_t stride;
+  int single, counted;
+  struct { double calibration, time; } batches[batches];
+} Program;
 
 static double now(void)
 {
@@ -68,12 +79,6 @@ static int by_size(const void *a, const void *b)
   return (difference > 0) - (difference < 0);
 }
 
-static double median(double *values, int count)
-{
-  qsort(values, (size_t)count, sizeof *values, by_size);
-  return values[count / 2];
-}
-
 static double *read_states(const char *path, long inputs, long *states)
 {
   FILE *file = fopen(path, "rb");
@@ -107,80 +112,112 @@ static char *arrange(const double *values, long states, long inputs, long lanes,
   return arranged;
 }
 
-static void check(Function function, Function result_of, const char *state, long calls, size_t stride, long values, int single)
+static void prepare(Program *program, char **arguments, const double *values, long states, long inputs)
 {
-  void *result = aligned_alloc(64, (size_t)(values * 8 + 63) / 64 * 64);
-  for (long call = 0; call < calls; ++call, state += stride) {
-    const void *found = function(state, result);
-    if (result_of) found = result_of(state, result);
+  const char *library = arguments[0], *symbol = arguments[1], *robot = arguments[2];
+  void *opened = need(dlopen(library, RTLD_NOW | RTLD_LOCAL), library);
+  int (*reads)(const char *) = (int (*)(const char *))dlsym(opened, "prepare");
+  if (reads && reads(robot) != 0) {
+    fprintf(stderr, "timer: %s does not take %s\n", library, robot);
+    exit(3);
+  }
+  char name[256];
+  snprintf(name, sizeof name, "%s_result", symbol);
+  program->function = (Function)need(dlsym(opened, symbol), symbol);
+  program->result_of = (Function)dlsym(opened, name);
+  program->single = strcmp(arguments[3], "f32") == 0;
+  program->lanes = atol(arguments[4]);
+  program->calls = states / program->lanes;
+  program->states = arrange(values, states, inputs, program->lanes, program->single);
+  program->stride = (size_t)(inputs * program->lanes) * (program->single ? sizeof(float) : sizeof(double));
+}
+
+static void check(const Program *program, void *result, long values)
+{
+  const char *state = program->states;
+  for (long call = 0; call < program->calls; ++call, state += program->stride) {
+    const void *found = program->function(state, result);
+    if (program->result_of) found = program->result_of(state, result);
     for (long i = 0; i < values; ++i) {
-      const double value = single ? (double)((const float *)found)[i] : ((const double *)found)[i];
+      const double value = program->single ? (double)((const float *)found)[i] : ((const double *)found)[i];
       fwrite(&value, sizeof value, 1, stdout);
     }
   }
 }
 
-static double batch(Function function, const char *states, long calls, size_t stride, void *result, long passes)
+// ns of a call.
+static double batch(const Program *program, void *result, long calls, long passes)
 {
   const double begun = now();
   for (long pass = 0; pass < passes; ++pass) {
-    const char *state = states;
-    for (long call = 0; call < calls; ++call, state += stride) function(state, result);
+    const char *state = program->states;
+    for (long call = 0; call < calls; ++call, state += program->stride) program->function(state, result);
   }
   return (now() - begun) / (double)(passes * calls);
 }
 
-static void measure(Function function, const char *states, long calls, size_t stride, long values, long lanes)
+static void warm(Program *program, void *result)
 {
-  void *result = aligned_alloc(64, (size_t)(values * 8 + 63) / 64 * 64);
-  batch(function, states, calls, stride, result, 2);
-  const double once = batch(function, states, calls, stride, result, 1) * (double)calls;
-  const long passes = once < batch_ns ? (long)(batch_ns / once) + 1 : 1;
-  batch(function, states, calls, stride, result, 5 * passes);
-  // A batch during which another program had the core says nothing of this one, and is not counted.
-  double times[batches], calibrations[batches];
-  int counted = 0;
-  for (int attempt = 0; attempt < attempts && counted < batches; ++attempt) {
-    const long before = interruptions();
-    calibrations[counted] = calibration();
-    times[counted] = batch(function, states, calls, stride, result, passes) / (double)lanes;
-    if (interruptions() == before) ++counted;
+  batch(program, result, program->calls, 2);
+  const double once = batch(program, result, program->calls, 1) * (double)program->calls;
+  program->passes = once < batch_ns ? (long)(batch_ns / once) + 1 : 1;
+  program->counted = 0;
+}
+
+// A batch of the program, unless it has all that it needs. One during which another program had the core says nothing of this
+// one, and is not counted.
+static void turn(Program *program, void *result)
+{
+  if (program->counted == batches) return;
+  batch(program, result, program->calls < warming_calls ? program->calls : warming_calls, 1);
+  const long before = interruptions();
+  const double first = calibration();
+  const double time = batch(program, result, program->calls, program->passes) / (double)program->lanes;
+  const double last = calibration();
+  if (interruptions() != before) return;
+  program->batches[program->counted].calibration = first > last ? first : last;
+  program->batches[program->counted++].time = time;
+}
+
+// The median of the quietest batches.
+static void report(Program *program)
+{
+  if (program->counted < batches) {
+    printf("interrupted interrupted\n");
+    return;
   }
-  if (counted < batches) {
-    fprintf(stderr, "timer: other programs keep taking this core: stop them, or take another core (--core)\n");
-    exit(4);
-  }
-  printf("%.17g %.17g\n", median(times, batches), median(calibrations, batches));
+  double times[quietest];
+  qsort(program->batches, batches, sizeof *program->batches, by_size);
+  const double calibrated = program->batches[quietest / 2].calibration;
+  for (int k = 0; k < quietest; ++k) times[k] = program->batches[k].time;
+  qsort(times, quietest, sizeof *times, by_size);
+  printf("%.17g %.17g\n", times[quietest / 2], calibrated);
 }
 
 int main(int count, char **arguments)
 {
-  if (count != 10) {
-    fprintf(stderr, "usage: timer check|time LIBRARY SYMBOL ROBOT STATES SCALAR LANES INPUTS OUTPUTS\n");
+  enum { first = 5, each = 5 };
+  const int programs = (count - first) / each;
+  if (programs < 1 || (count - first) % each != 0) {
+    fprintf(stderr, "usage: timer check|time STATES INPUTS OUTPUTS {LIBRARY SYMBOL ROBOT SCALAR LANES} ..\n");
     return 2;
   }
-  const char *symbol = arguments[3], *robot = arguments[4];
-  const int single = strcmp(arguments[6], "f32") == 0;
-  const long lanes = atol(arguments[7]), inputs = atol(arguments[8]), outputs = atol(arguments[9]);
-
-  void *library = need(dlopen(arguments[2], RTLD_NOW | RTLD_LOCAL), arguments[2]);
-  int (*prepare)(const char *) = (int (*)(const char *))dlsym(library, "prepare");
-  if (prepare && prepare(robot) != 0) {
-    fprintf(stderr, "timer: %s does not take %s\n", arguments[2], robot);
-    return 3;
+  const long inputs = atol(arguments[3]), outputs = atol(arguments[4]);
+  long states, lanes = 1;
+  const double *values = read_states(arguments[2], inputs, &states);
+  Program *all = calloc((size_t)programs, sizeof *all);
+  for (int k = 0; k < programs; ++k) {
+    prepare(&all[k], arguments + first + each * k, values, states, inputs);
+    if (all[k].lanes > lanes) lanes = all[k].lanes;
   }
-  Function function = (Function)need(dlsym(library, symbol), symbol);
-  char name[256];
-  snprintf(name, sizeof name, "%s_result", symbol);
-  Function result_of = (Function)dlsym(library, name);
-
-  long states;
-  double *values = read_states(arguments[5], inputs, &states);
-  char *arranged = arrange(values, states, inputs, lanes, single);
-  const size_t stride = (size_t)(inputs * lanes) * (single ? sizeof(float) : sizeof(double));
-  if (strcmp(arguments[1], "check") == 0)
-    check(function, result_of, arranged, states / lanes, stride, outputs * lanes, single);
-  else
-    measure(function, arranged, states / lanes, stride, outputs * lanes, lanes);
+  void *result = aligned_alloc(64, (size_t)(outputs * lanes * 8 + 63) / 64 * 64);
+  if (strcmp(arguments[1], "check") == 0) {
+    check(&all[0], result, outputs * all[0].lanes);
+    return 0;
+  }
+  for (int k = 0; k < programs; ++k) warm(&all[k], result);
+  for (int attempt = 0; attempt < attempts; ++attempt)
+    for (int k = 0; k < programs; ++k) turn(&all[k], result);
+  for (int k = 0; k < programs; ++k) report(&all[k]);
   return 0;
 }

@@ -37,14 +37,14 @@ def llvm_mca():
     return installed("llvm-mca", "llvm")
 
 
-def compile_for(processor, triple, *arguments, command="build", behind=()):
-    """Compiles this folder's crate, and what it depends on, for a processor."""
+def compile_for(processor, triple, *arguments, command="build", behind=(), folder=BUILT):
+    """Compiles this folder's crate, and what it depends on, for a processor, into `folder`."""
     library = Path(output("rustc", "--print", "sysroot").strip()) / "lib/rustlib" / triple / "lib"
     if not library.exists():
         subprocess.run(["rustup", "target", "add", triple], check=True)
     # With `--target` macros and build scripts are compiled for the machine at hand, which must run them.
-    line = ["cargo", command, "--release", "--quiet", "--target", triple, "--target-dir", BUILT, *arguments, *behind]
+    line = ["cargo", command, "--release", "--quiet", "--target", triple, "--target-dir", folder, *arguments, *behind]
     environment = os.environ | {"RUSTFLAGS": f"-C target-cpu={processor}"}
     if subprocess.run(line, cwd=HERE, env=environment).returncode != 0:
         sys.exit(f"the crate in studies/processors does not compile for {processor}")
-    return BUILT / triple / "release"
+    return folder / triple / "release"
