@@ -3,13 +3,15 @@
 //! It is a scenario itself, beside copies of the model and the tables that it names, so that the run can be done again
 //! from the folder alone.
 
+use std::iter;
+
 use redysim_runtime::Statistics;
-use toml_edit::{Array, DocumentMut, Item, Value, value};
+use toml_edit::{Array, DocumentMut, Item, TableLike, Value, value};
 
 use super::names::{MODEL, RUN_FILE, TORQUE, TRAJECTORY, URDF, csv};
 use super::{Ended, Ending, Folder, Outcome, Run, Summary};
 use crate::failure::Failure;
-use crate::scenario::contact::{USUAL_NORMAL, USUAL_POINT};
+use crate::scenario::contact::{HUNT_CROSSLEY, USUAL_EXPONENT, USUAL_NORMAL, USUAL_POINT};
 use crate::scenario::{Absolute, HeldFrame, Integrator, Scenario, Tolerances, Torque, USUAL_THROUGH, keys, shorthand};
 use crate::text::{self, set_default};
 
@@ -64,8 +66,10 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         }
     }
     if scenario.contacts.meet_ground {
-        set_default(&mut document["ground"], "point", numbers(&USUAL_POINT));
-        set_default(&mut document["ground"], "normal", numbers(&USUAL_NORMAL));
+        plane(&mut document["ground"]);
+    }
+    if let Some(contacts) = document.get_mut(keys::CONTACT.name) {
+        tables(contacts).for_each(contact);
     }
     let before = document.remove(keys::RUN.name).and_then(|run| Some(run.get(URDF)?.as_str()?.to_owned()));
     let urdf = scenario.urdf.as_ref().map(|urdf| {
@@ -96,6 +100,32 @@ fn settings(table: &mut Item, integrator: Integrator) {
             set_default(table, "atol", number(position));
         }
     }
+}
+
+/// The tables of an array, whichever way it is written.
+fn tables(array: &mut Item) -> Box<dyn Iterator<Item = &mut dyn TableLike> + '_> {
+    match array {
+        Item::ArrayOfTables(tables) => Box::new(tables.iter_mut().map(|table| table as &mut dyn TableLike)),
+        Item::Value(Value::Array(values)) => {
+            let tables = values.iter_mut().filter_map(Value::as_inline_table_mut);
+            Box::new(tables.map(|table| table as &mut dyn TableLike))
+        }
+        _ => Box::new(iter::empty()),
+    }
+}
+
+fn contact(table: &mut dyn TableLike) {
+    if table.get(keys::CONTACT_LAW.name).and_then(Item::as_str) == Some(HUNT_CROSSLEY) {
+        table.entry(keys::EXPONENT.name).or_insert(number(USUAL_EXPONENT));
+    }
+    if let Some(ground) = table.get_mut(keys::CONTACT_GROUND.name) {
+        plane(ground);
+    }
+}
+
+fn plane(table: &mut Item) {
+    set_default(table, keys::POINT.name, numbers(&USUAL_POINT));
+    set_default(table, keys::NORMAL.name, numbers(&USUAL_NORMAL));
 }
 
 fn held_frame(table: &mut Item, held: &HeldFrame) {

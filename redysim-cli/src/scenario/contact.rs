@@ -13,6 +13,8 @@ pub type Contact = redysim_runtime::Contact<f64, AnyContactLaw<f64>>;
 /// A mechanism on the ground, or without contacts the mechanism alone.
 pub type Ground<'a> = Grounded<'a, f64, GenericMechanism, AnyContactLaw<f64>>;
 
+/// The law that has an exponent.
+pub const HUNT_CROSSLEY: &str = "hunt-crossley";
 /// The exponent of a contact of spheres.
 pub const USUAL_EXPONENT: f64 = 1.5;
 /// The horizontal plane at the origin.
@@ -107,7 +109,7 @@ type ReadLaw = fn(&mut Reader<'_, '_>) -> Option<AnyContactLaw<f64>>;
 
 const LAWS: [Kind<ReadLaw>; 2] = [
     Kind::new("redysim", redysim_law, &keys::REDYSIM_CONTACT),
-    Kind::new("hunt-crossley", hunt_crossley_law, &keys::HUNT_CROSSLEY),
+    Kind::new(HUNT_CROSSLEY, hunt_crossley_law, &keys::HUNT_CROSSLEY),
 ];
 
 impl Table {

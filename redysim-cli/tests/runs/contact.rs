@@ -207,6 +207,28 @@ fn a_ball_leaves_a_wall_as_it_leaves_the_floor() {
     assert!(run == again);
 }
 
+/// Contacts are written as tables or as an array within a line.
+#[test]
+fn a_run_records_the_defaults_of_a_contact_and_of_its_own_ground() {
+    let law = "frame = 'top_left_front', law = 'hunt-crossley', stiffness = 1e5, damping = 0.1, friction = 0, slip_velocity = 0.01";
+    let end = "[forward]\nend = 0.1\nstep = 0.05\n";
+    let wall = "ground = { normal = [-1, 0, 0] }";
+    let tables = format!("{end}[[contact]]\n{}\n{wall}\n", law.replace(", ", "\n"));
+    let line = format!("contact = [{{ {law}, {wall} }}]\n{end}");
+    for (name, rest) in [("tables", tables), ("line", line)] {
+        let folder = scratch(&format!("contact-defaults-{name}"));
+        succeed(&folder, &["forward", &scenario(&folder, "parcel.toml", &rest), "-o", "run", "--quiet"]);
+        let recorded = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+        let contact = &recorded.parse::<toml::Table>().unwrap()["contact"][0];
+        assert_eq!(contact["exponent"].as_float(), Some(1.5), "{recorded}");
+        assert_eq!(contact["ground"]["point"].to_string(), "[0.0, 0.0, 0.0]", "{recorded}");
+        assert_eq!(contact["ground"]["normal"].to_string(), "[-1, 0, 0]", "{recorded}");
+        succeed(&folder, &["forward", "run/run.toml", "-o", "again", "--quiet"]);
+        let [run, again] = ["run", "again"].map(|name| fs::read(folder.join(name).join("contacts.csv")).unwrap());
+        assert!(run == again);
+    }
+}
+
 #[test]
 fn a_ground_that_no_contact_meets_is_warned_of() {
     let folder = scratch("contact-ground-unmet");
