@@ -178,6 +178,8 @@ class Bench:
                 print(f"repetition {repetition + 1} of {REPETITIONS}: {robot}", flush=True)
                 for function in FUNCTIONS:
                     ready = [p for p in programs if is_ready(p, robot, function)]
+                    if not ready:
+                        continue
                     turn = repetition * len(ready) // REPETITIONS
                     ready = ready[turn:] + ready[:turn]
                     measured = self.measured(self.command("time", ready, robot, function, states), results)
