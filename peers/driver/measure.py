@@ -19,6 +19,7 @@ DISTURBED = 1.05
 AGAIN = 2
 # What the timer has for a program where others kept taking the core.
 INTERRUPTED = "interrupted"
+TAKEN = "other programs kept taking the core"
 # Deviations are relative to the component, or to this part of the state's largest one if that is more.
 FLOOR = {"f64": 1e-6, "f32": 1e-2}
 
@@ -102,12 +103,22 @@ class Bench:
     def command(self, mode: str, programs: list[Program], robot: str, function: str, states: Path) -> list[str]:
         known = self.robot(robot)
         outputs = known.nv * known.nv if function == "mass" else known.nv
-        command = [str(self.built / "timer"), mode, str(states), str(known.nq + 2 * known.nv), str(outputs)]
-        for program in programs:
-            library, symbol = program.library_of(self.built, robot, function), program.symbol_of(robot, function)
-            robot_file = robot_files.path(robot, program.robot_file, self.built)
-            command += [str(library), symbol, str(robot_file), program.scalar, str(program.lanes)]
-        return command
+        called = [
+            (
+                program.library_of(self.built, robot, function),
+                program.symbol_of(robot, function),
+                robot_files.path(robot, program.robot_file, self.built),
+                program.scalar,
+                program.lanes,
+            )
+            for program in programs
+        ]
+        return self._timer(mode, states, known.nq + 2 * known.nv, outputs, called)
+
+    def _timer(self, mode: str, states: Path, inputs: int, outputs: int, programs: list[tuple]) -> list[str]:
+        """The timer's command for programs by library, symbol, robot, scalar and lanes."""
+        words = [self.built / "timer", mode, states, inputs, outputs, *(word for program in programs for word in program)]
+        return [str(word) for word in words]
 
     def write_states(self, robot: str, states: numpy.ndarray, name: str = "states") -> Path:
         path = robot_files.path(robot, name, self.built)
@@ -186,7 +197,7 @@ class Bench:
                     for program, time in zip(ready, measured):
                         if time is None:
                             what = f"repetition {repetition + 1} of {program.label}, {robot}, {FUNCTIONS[function]}"
-                            results.refused.append(f"{what}: other programs kept taking the core")
+                            results.refused.append(f"{what}: {TAKEN}")
                             continue
                         results.times.setdefault((program.key, robot, function), []).append(time)
 
@@ -214,14 +225,13 @@ class Bench:
         robot = robot_files.path("gripper", "toml", self.built)
         library = REFERENCE.library_of(self.built, "gripper", "inverse")
         symbols = ["task_inverse", "task_fall"]
-        command = [str(self.built / "timer"), "time", str(states), "12", "404"]
-        for symbol in symbols:
-            command += [str(library), symbol, str(robot), "f64", "1"]
+        called = [(library, symbol, robot, "f64", 1) for symbol in symbols]
+        command = self._timer("time", states, 12, 404, called)
         repetitions = [self.measured(command, results) for _ in range(REPETITIONS)]
         found = {}
         for symbol, times in zip(symbols, zip(*repetitions)):
             if None in times:
-                results.refused.append(f"ReDySim's own `{symbol}`: other programs kept taking the core")
+                results.refused.append(f"ReDySim's own `{symbol}`: {TAKEN}")
             else:
                 found[symbol] = float(f"{numpy.median(times):.5g}")
         return found
@@ -229,7 +239,7 @@ class Bench:
 
 def _measurement(line: str) -> tuple[float, float | None]:
     """Of a program: ns of the calibration loop and per state."""
-    if line.startswith(INTERRUPTED):
+    if line == INTERRUPTED:
         return float("inf"), None
     time, calibration = (float(word) for word in line.split())
     return calibration, time

@@ -1,7 +1,8 @@
 // Calls functions of libraries at the states of a file, and either writes what one returns, or times all of them in turns.
 //
 //   timer check STATES INPUTS OUTPUTS PROGRAM       results to standard output, binary
-//   timer time  STATES INPUTS OUTPUTS PROGRAM ..    "ns-per-state calibration-ns" as text, a line for each program
+//   timer time  STATES INPUTS OUTPUTS PROGRAM ..    "ns-per-state calibration-ns" as text, a line for each program, or
+//                                                   "interrupted" if other programs kept taking the core
 //
 // A PROGRAM is five arguments: LIBRARY SYMBOL ROBOT SCALAR LANES. Every program under comparison is a library with functions
 // `const T *function(const T *state, T *result)`, T `double` (SCALAR f64) or `float` (f32). It returns where the result
@@ -31,6 +32,7 @@ typedef struct {
   long calls, lanes, passes;
   size_t stride;
   int single, counted;
+  // The calibration comes first: batches are sorted by it.
   struct { double calibration, time; } batches[batches];
 } Program;
 
@@ -183,7 +185,7 @@ static void turn(Program *program, void *result)
 static void report(Program *program)
 {
   if (program->counted < batches) {
-    printf("interrupted interrupted\n");
+    printf("interrupted\n");
     return;
   }
   double times[quietest];
