@@ -3,8 +3,6 @@
 //! It is a scenario itself, beside copies of the model and the tables that it names, so that the run can be done again
 //! from the folder alone.
 
-use std::iter;
-
 use redysim_runtime::Statistics;
 use toml_edit::{Array, DocumentMut, Item, TableLike, Value, value};
 
@@ -68,8 +66,8 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
     if scenario.contacts.meet_ground {
         plane(&mut document["ground"]);
     }
-    if let Some(contacts) = document.get_mut(keys::CONTACT.name) {
-        tables(contacts).for_each(contact);
+    if let Some(array) = document.get_mut(keys::CONTACT.name) {
+        contacts(array);
     }
     let before = document.remove(keys::RUN.name).and_then(|run| Some(run.get(URDF)?.as_str()?.to_owned()));
     let urdf = scenario.urdf.as_ref().map(|urdf| {
@@ -102,15 +100,14 @@ fn settings(table: &mut Item, integrator: Integrator) {
     }
 }
 
-/// The tables of an array, whichever way it is written.
-fn tables(array: &mut Item) -> Box<dyn Iterator<Item = &mut dyn TableLike> + '_> {
+/// The settings that contacts leave open, whichever way their tables are written.
+fn contacts(array: &mut Item) {
     match array {
-        Item::ArrayOfTables(tables) => Box::new(tables.iter_mut().map(|table| table as &mut dyn TableLike)),
+        Item::ArrayOfTables(tables) => tables.iter_mut().for_each(|table| contact(table)),
         Item::Value(Value::Array(values)) => {
-            let tables = values.iter_mut().filter_map(Value::as_inline_table_mut);
-            Box::new(tables.map(|table| table as &mut dyn TableLike))
+            values.iter_mut().filter_map(Value::as_inline_table_mut).for_each(|table| contact(table));
         }
-        _ => Box::new(iter::empty()),
+        _ => {}
     }
 }
 
